@@ -1,0 +1,1 @@
+//! The running application without a terminal: keys in, buffer out.

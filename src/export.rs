@@ -1,0 +1,1 @@
+//! Rows → CSV or JSON lines, to any writer.

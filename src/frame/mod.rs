@@ -1,0 +1,1 @@
+//! A finished buffer as bytes: terminal differences, text, ANSI, SVG.

@@ -1,0 +1,19 @@
+//! Carom simulates rigid spheres that bounce between parallelogram walls and each other, and measures how much
+//! accuracy costs how much time.
+//!
+//! Data flows one way: scene file → validated [`scene::Scene`] → [`physics`] model → method → [`snapshot`] →
+//! [`view`] → terminal. Imports run the other way; `tests/tidy.rs` enforces it. SI units throughout; `f64`; y is up.
+#![forbid(unsafe_code)]
+
+pub mod app;
+pub mod cli;
+pub mod export;
+pub mod frame;
+pub mod geometry;
+pub mod physics;
+pub mod scene;
+pub mod snapshot;
+pub mod terminal;
+pub mod text_mode;
+pub mod view;
+pub mod worker;

@@ -1,0 +1,61 @@
+//! Contacts as the solver met them: plain rows for events, the inspector and the tallies.
+
+use glam::DVec3;
+
+/// Which two bodies touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// Sphere `a` and wall `b`.
+    Wall,
+    /// Spheres `a` < `b`.
+    Pair,
+}
+
+/// What the impact law made of a contact (paper 2.4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// v_n > 0: nothing to do.
+    Leave,
+    /// A rest begins (in events), or goes on (in the contacts of a frame).
+    Rest,
+    /// An impact.
+    Collide,
+    /// A rest ends (events only).
+    Release,
+}
+
+/// One contact at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// When, s.
+    pub time: f64,
+    /// Wall or pair.
+    pub kind: Kind,
+    /// The sphere; of a pair the lower index.
+    pub a: usize,
+    /// The wall, or the pair's higher index.
+    pub b: usize,
+    /// Contact point, m.
+    pub point: DVec3,
+    /// Unit normal, from the contact point to the centre of `a` (pair: from `b` to `a`).
+    pub normal: DVec3,
+    /// Approach speed −v_n before the response, m/s.
+    pub approach_speed: f64,
+    /// Separation speed v_n after the response, m/s.
+    pub separation_speed: f64,
+    /// Normal impulse on `a` along `normal`, N s; at rest the support force's impulse of the frame.
+    pub impulse: f64,
+    /// Intersection degree −gap / r (pair: / (r₁ + r₂)), dimensionless.
+    pub degree: f64,
+    /// What the impact law made of it.
+    pub class: Class,
+}
+
+/// One probe of the search for the collision time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probe {
+    /// Length of the trial step from the frame's start, s.
+    pub step: f64,
+    /// Largest intersection degree found there, dimensionless (negative: apart).
+    pub degree: f64,
+}

@@ -1,0 +1,1 @@
+//! Flight and impact: the one impact law.

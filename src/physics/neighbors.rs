@@ -1,0 +1,1 @@
+//! Which spheres can touch at all: cells, as soon as the scene has many.

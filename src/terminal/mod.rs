@@ -1,0 +1,1 @@
+//! Drives the application on a real terminal. The only place that names crossterm.

@@ -1,0 +1,1 @@
+//! A run told in lines, one per event: for dumb terminals and screen readers.

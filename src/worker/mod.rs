@@ -1,0 +1,1 @@
+//! The thread that owns a simulation: commands in, latest snapshot out.
