@@ -10,6 +10,7 @@ pub mod neighbors;
 pub mod overlap;
 mod paper;
 pub mod state;
+pub mod support;
 
 pub use contact::{Class, Contact, Kind, Probe};
 pub use model::{Method, Model, Scene, Settings};
