@@ -13,6 +13,7 @@ pub mod neighbors;
 pub mod overlap;
 mod paper;
 pub mod state;
+pub mod support;
 
 pub use contact::{Class, Contact, Kind, Probe};
 use log::Log;
