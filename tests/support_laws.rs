@@ -84,9 +84,9 @@ fn pyramid(top_mass: f64) -> Pile {
                 }
             }
         }
-        for b in a + 1..centers.len() {
-            if (centers[b] - x).length() < 1.0 + 1e-9 {
-                pile = pile.on_sphere(a, b, (x - centers[b]).normalize());
+        for (b, y) in centers.iter().enumerate().skip(a + 1) {
+            if (y - x).length() < 1.0 + 1e-9 {
+                pile = pile.on_sphere(a, b, (x - y).normalize());
             }
         }
     }
