@@ -1,7 +1,148 @@
 //! All that is constant, and only what the scene requires. The only file of the physics that names `scene`.
+//!
+//! No gravity term, no force list, no wall list, no pair loop and no neighbour cells are held unless the scene needs
+//! them; [`Model::requirements`] says which.
 
-pub use crate::scene::{Method, Scene, Settings};
+use glam::DVec3;
+
+use super::State;
+use crate::geometry::Parallelogram;
+pub use crate::scene::{ContactLaw, Method, Scene, Settings};
+
+/// Up to this many spheres every pair is looked at: sorting so few into cells costs more than it saves.
+const ALL_PAIRS_LIMIT: usize = 64;
+
+/// What accelerates the spheres in flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pull {
+    /// Nothing: velocities change at contacts only.
+    None,
+    /// Gravity alone, the same for every sphere, m/s².
+    Uniform(DVec3),
+    /// At least one sphere carries a force of its own: [`Model::accelerations`] holds g + F / m.
+    PerSphere,
+}
+
+/// How pairs that may touch are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PairSearch {
+    /// Fewer than two spheres: there are no pairs.
+    None,
+    /// Few spheres: every pair.
+    All,
+    /// Many spheres: cells.
+    Cells,
+}
 
 /// What the scene requires.
 #[derive(Debug, Clone)]
-pub struct Model {}
+pub struct Model {
+    /// What accelerates the spheres in flight.
+    pub pull: Pull,
+    /// g + F / m by sphere, m/s²; empty unless `pull` is [`Pull::PerSphere`].
+    pub accelerations: Vec<DVec3>,
+    /// Masses by sphere, kg.
+    pub masses: Vec<f64>,
+    /// 1 / m by sphere, 1/kg.
+    pub inverse_masses: Vec<f64>,
+    /// Radii by sphere, m.
+    pub radii: Vec<f64>,
+    /// Walls in the scene's order.
+    pub faces: Vec<Face>,
+    /// The contact law's parameters.
+    pub law: ContactLaw,
+    /// How pairs that may touch are found.
+    pub pairs: PairSearch,
+    /// Where the spheres are at load.
+    pub initial: State,
+}
+
+/// A wall with what its tests need: unit normal and the dual vectors of its edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// Centre, edges, m.
+    pub shape: Parallelogram,
+    /// Unit normal s1 × s2 / |s1 × s2|; contacts flip it to the sphere's side.
+    pub normal: DVec3,
+    /// d1 with d1·s1 = 1, d1·s2 = d1·n = 0, 1/m.
+    pub dual1: DVec3,
+    /// d2 with d2·s2 = 1, d2·s1 = d2·n = 0, 1/m.
+    pub dual2: DVec3,
+}
+
+impl Face {
+    /// What the tests of a wall of this shape need.
+    pub fn new(shape: Parallelogram) -> Face {
+        let across = shape.s1.cross(shape.s2);
+        let normal = across / across.length();
+        let (row1, row2) = (shape.s2.cross(normal), normal.cross(shape.s1));
+        Face { shape, normal, dual1: row1 / row1.dot(shape.s1), dual2: row2 / row2.dot(shape.s2) }
+    }
+
+    /// Signed distance of `p` (m) from the wall's plane, m; positive on the side of `normal`.
+    #[inline]
+    pub fn height(&self, p: DVec3) -> f64 {
+        (p - self.shape.center).dot(self.normal)
+    }
+
+    /// Whether the foot of `p` (m) on the plane lies within the parallelogram, its boundary included.
+    #[inline]
+    pub fn shades(&self, p: DVec3) -> bool {
+        let q = p - self.shape.center;
+        q.dot(self.dual1).abs() <= 0.5 && q.dot(self.dual2).abs() <= 0.5
+    }
+}
+
+impl Model {
+    /// The model of a validated scene.
+    pub fn new(scene: &Scene) -> Model {
+        let spheres = &scene.spheres;
+        let forced = spheres.iter().any(|s| s.force != DVec3::ZERO);
+        let pull = match (forced, scene.gravity == DVec3::ZERO) {
+            (true, _) => Pull::PerSphere,
+            (false, true) => Pull::None,
+            (false, false) => Pull::Uniform(scene.gravity),
+        };
+        let accelerations =
+            if forced { spheres.iter().map(|s| scene.gravity + s.force / s.mass).collect() } else { Vec::new() };
+        Model {
+            pull,
+            accelerations,
+            masses: spheres.iter().map(|s| s.mass).collect(),
+            inverse_masses: spheres.iter().map(|s| 1.0 / s.mass).collect(),
+            radii: spheres.iter().map(|s| s.radius).collect(),
+            faces: scene.walls.iter().map(|w| Face::new(w.shape)).collect(),
+            law: scene.contact,
+            pairs: match spheres.len() {
+                0 | 1 => PairSearch::None,
+                2..=ALL_PAIRS_LIMIT => PairSearch::All,
+                _ => PairSearch::Cells,
+            },
+            initial: State {
+                t: 0.0,
+                x: spheres.iter().map(|s| s.x).collect(),
+                v: spheres.iter().map(|s| s.v).collect(),
+            },
+        }
+    }
+
+    /// Number of spheres.
+    pub fn len(&self) -> usize {
+        self.radii.len()
+    }
+
+    /// Whether there is nothing to simulate.
+    pub fn is_empty(&self) -> bool {
+        self.radii.is_empty()
+    }
+
+    /// g + F / m of sphere `i`, m/s².
+    #[inline]
+    pub fn acceleration(&self, i: usize) -> DVec3 {
+        match self.pull {
+            Pull::None => DVec3::ZERO,
+            Pull::Uniform(g) => g,
+            Pull::PerSphere => self.accelerations[i],
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Lines, circles and discs in dots. Square roots only (correctly rounded everywhere), so a frame has the same dots on
+//! every machine; nothing ever loops over dots that are off the canvas.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use super::canvas::{Canvas, Ink};
+
+/// A point in dots: the centre of dot (i, j) is (i, j).
+pub(super) type Dots = (f64, f64);
+
+/// A straight line from `a` to `b`: one dot in each column, or each row if it is steep, as far as it is on the canvas.
+/// Nothing if a coordinate is not finite.
+pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, ink: Ink) {
+    let Some((a, b)) = clip(canvas, a, b) else { return };
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let steps = dx.abs().max(dy.abs()).round().max(1.0);
+    let (step_x, step_y) = (dx / steps, dy / steps);
+    for i in 0..=steps as i32 {
+        let i = f64::from(i);
+        canvas.dot((a.0 + i * step_x).round() as i32, (a.1 + i * step_y).round() as i32, ink);
+    }
+}
+
+/// The part of a line that is on the canvas, half a dot of rim included (Liang and Barsky 1984).
+fn clip(canvas: &Canvas, a: Dots, b: Dots) -> Option<(Dots, Dots)> {
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    if !(dx.is_finite() && dy.is_finite()) {
+        return None;
+    }
+    let (right, bottom) = (f64::from(canvas.width()) - 0.5, f64::from(canvas.height()) - 0.5);
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for (along, inside) in [(-dx, a.0 + 0.5), (dx, right - a.0), (-dy, a.1 + 0.5), (dy, bottom - a.1)] {
+        // The line is on this side's inner half where along · s ≤ inside.
+        if along == 0.0 && inside < 0.0 {
+            return None;
+        } else if along < 0.0 {
+            enter = enter.max(inside / along);
+        } else if along > 0.0 {
+            leave = leave.min(inside / along);
+        }
+    }
+    let at = |s: f64| ((a.0 + s * dx).clamp(-0.5, right), (a.1 + s * dy).clamp(-0.5, bottom));
+    (enter <= leave).then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
+}
+
+/// The circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it, in
+/// its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
+pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+    if !meets(canvas, c, r) {
+        return;
+    }
+    let h = r * FRAC_1_SQRT_2;
+    for y in range(c.1 - h, c.1 + h, canvas.height()) {
+        let half = half_chord(r, f64::from(y) - c.1);
+        canvas.dot((c.0 - half).round() as i32, y, ink);
+        canvas.dot((c.0 + half).round() as i32, y, ink);
+    }
+    for x in range(c.0 - h, c.0 + h, canvas.width()) {
+        let half = half_chord(r, f64::from(x) - c.0);
+        canvas.dot(x, (c.1 - half).round() as i32, ink);
+        canvas.dot(x, (c.1 + half).round() as i32, ink);
+    }
+}
+
+/// The disc of radius `r` dots about `c`: every `every`-th row of the dots whose centres are in it, and at least the dot
+/// nearest to `c`.
+pub(super) fn disc(canvas: &mut Canvas, c: Dots, r: f64, every: i32, ink: Ink) {
+    if !meets(canvas, c, r) {
+        return;
+    }
+    canvas.dot(c.0.round() as i32, c.1.round() as i32, ink);
+    for y in range(c.1 - r, c.1 + r, canvas.height()).filter(|y| y % every == 0) {
+        let half = half_chord(r, f64::from(y) - c.1);
+        bar(canvas, (c.0 - half, c.0 + half), y, ink);
+    }
+}
+
+/// The horizontal chord through the centre of the circle of radius `r` dots about `c`.
+pub(super) fn chord(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+    if meets(canvas, c, r) {
+        bar(canvas, (c.0 - r, c.0 + r), c.1.round() as i32, ink);
+    }
+}
+
+/// The dots of a row whose centres are within `ends`.
+fn bar(canvas: &mut Canvas, ends: (f64, f64), y: i32, ink: Ink) {
+    for x in range(ends.0, ends.1, canvas.width()) {
+        canvas.dot(x, y, ink);
+    }
+}
+
+/// Whether any of the disc can be on the canvas; false if a number is not finite.
+fn meets(canvas: &Canvas, c: Dots, r: f64) -> bool {
+    let rim = r.max(1.0) + 1.0;
+    let within = |x: f64, size: i32| x + rim >= 0.0 && x - rim <= f64::from(size);
+    r.is_finite() && within(c.0, canvas.width()) && within(c.1, canvas.height())
+}
+
+/// √(r² − d²): half the chord at distance `d` from the centre, as √((r − d)(r + d)) so that nothing is lost when r is
+/// huge; 0 outside the circle.
+fn half_chord(r: f64, d: f64) -> f64 {
+    ((r - d) * (r + d)).max(0.0).sqrt()
+}
+
+/// The whole numbers from `from` to `to` that are in 0..size.
+fn range(from: f64, to: f64, size: i32) -> std::ops::Range<i32> {
+    // `as` saturates, so infinite ends are cut like all others.
+    let first = from.ceil().max(0.0) as i32;
+    let end = ((to.floor() + 1.0).min(f64::from(size))).max(0.0) as i32;
+    first..end
+}
