@@ -241,6 +241,7 @@ fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
 /// both sides. Only times below `before` (s) matter.
 #[inline]
 pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64> {
+    let search = Search { path, r, face, before };
     let height = [face.height(path.x), face.normal.dot(path.v), 0.5 * face.normal.dot(path.a)];
     if height[0].abs() > r {
         let side = if height[0] < 0.0 { -1.0 } else { 1.0 };
@@ -249,11 +250,11 @@ pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64>
         if t >= before {
             return None;
         }
-        if let Some(t) = Search { path, r, face, before }.verified(t) {
+        if let Some(t) = search.verified(t) {
             return Some(t);
         }
     }
-    Search { path, r, face, before }.everywhere(height)
+    search.everywhere(height)
 }
 
 /// One sphere, one wall.

@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 
 pub mod contact;
+pub mod contact_time;
 mod log;
 pub mod model;
 pub mod motion;
