@@ -3,16 +3,27 @@
 //! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
 //! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 
+use std::borrow::Cow;
+
+use glam::DVec3;
+
 pub mod contact;
+pub mod contact_time;
+mod log;
 pub mod model;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
 mod paper;
+mod requirements;
+mod sealed;
 pub mod state;
+pub mod support;
 
 pub use contact::{Class, Contact, Kind, Probe};
-pub use model::{Method, Model, Scene, Settings};
+use log::Log;
+pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
+pub use requirements::Requirements;
 pub use state::{Stall, State, Tallies};
 
 /// How far one call of [`Simulation::advance`] should go.
@@ -52,83 +63,174 @@ pub struct Description {
     pub avoid: &'static str,
 }
 
+/// What a method is.
+pub fn describe(method: Method) -> &'static Description {
+    match method {
+        Method::Paper => &paper::DESCRIPTION,
+    }
+}
+
+/// One method at work. The model and the log are lent for the length of a call, the state between frames is its own.
+trait Engine {
+    /// Takes over at `state`, which is the model's initial one (t = 0) or what another method left.
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Self;
+    /// Goes on for about `work` units, or to the goal.
+    fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress;
+    /// Takes other settings (of the same method) from the next frame on; a frame in progress is given up, which leaves
+    /// no trace, since its result would have followed from the last frame's end alone.
+    fn retune(&mut self, model: &Model, settings: Settings);
+    /// The state at the end of the last frame.
+    fn state(&self, model: &Model) -> Cow<'_, State>;
+    /// Time at the end of the last frame, s.
+    fn time(&self) -> f64;
+    /// Real length of the last frame, s; 0 before the first.
+    fn step(&self) -> f64;
+    /// A copy of the state at `t` (s) within the last frame.
+    fn at(&self, model: &Model, t: f64) -> State;
+    /// Impulses decided at the end of the last frame that act in the next, N s by sphere.
+    fn transient(&self, model: &Model) -> Vec<DVec3>;
+    /// Right after [`Engine::begin`]: with these impulses (N s by sphere) pending instead of its own.
+    fn continue_with(&mut self, transient: &[DVec3]);
+    /// The state for another method to begin with: pending impulses are already in its velocities.
+    fn hand_over(&self, model: &Model) -> State;
+}
+
+/// The methods, dispatched once per call.
+#[derive(Debug, Clone)]
+enum Engines {
+    /// The source paper's.
+    Paper(paper::Paper),
+}
+
+/// Calls the same trait method of whichever engine runs.
+macro_rules! each {
+    ($engines:expr, $engine:ident => $call:expr) => {
+        match $engines {
+            Engines::Paper($engine) => $call,
+        }
+    };
+}
+
+impl Engines {
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
+        match settings.method {
+            Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+        }
+    }
+}
+
 /// A scene under way: one method advancing one state.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     model: Model,
     settings: Settings,
-    state: State,
+    engine: Engines,
+    log: Log,
+    initial_energy: f64,
+    stall: Option<Stall>,
 }
 
 impl Simulation {
-    /// A simulation of `scene` at t = 0.
+    /// A simulation of `scene` at t = 0, the contacts found there already handled.
     pub fn new(scene: &Scene, settings: Settings) -> Simulation {
-        let _ = scene;
-        Simulation { model: Model {}, settings, state: State::default() }
+        let model = Model::new(scene);
+        let mut log = Log::default();
+        let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
+        let initial_energy = model.initial.energy(&model);
+        Simulation { model, settings, engine, log, initial_energy, stall: None }
+    }
+
+    /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
+    /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
+    /// then. Tallies count from here.
+    pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
+        let mut model = Model::new(scene);
+        model.initial.t = t;
+        let mut log = Log::default();
+        let mut engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
+        each!(&mut engine, engine => engine.continue_with(transient));
+        let initial_energy = model.initial.energy(&model);
+        let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
+        Simulation { model, settings, engine, log, initial_energy, stall: None }
     }
 
     /// Goes on for about `work` units (degree evaluations or events), or to the goal, whichever is first.
     pub fn advance(&mut self, until: Until, work: u64) -> Progress {
-        let _ = (until, work);
-        Progress::Reached
+        if let Some(stall) = &self.stall {
+            return Progress::Stalled(stall.clone());
+        }
+        let Simulation { model, engine, log, .. } = self;
+        let progress = each!(engine, engine => engine.advance(model, log, until, work));
+        if let Progress::Stalled(stall) = &progress {
+            self.stall = Some(stall.clone());
+        }
+        progress
     }
 
     /// Time at the end of the last frame, s.
     pub fn time(&self) -> f64 {
-        self.state.t
+        each!(&self.engine, engine => engine.time())
     }
 
     /// Real length of the last frame, s; 0 before the first.
     pub fn step(&self) -> f64 {
-        0.0
+        each!(&self.engine, engine => engine.step())
     }
 
     /// A copy of the state at the end of the last frame.
     pub fn state(&self) -> State {
-        self.state.clone()
+        self.now().into_owned()
     }
 
-    /// A copy of the state at `t` (s) within the last frame, reached from the frame's start by a shortened step.
-    /// Reading never changes the run.
+    /// A copy of the state at `t` (s) within the last frame, reached from the frame's start by a shortened step; a `t`
+    /// outside the frame counts as its nearer end. Reading never changes the run.
     pub fn at(&self, t: f64) -> State {
-        let _ = t;
-        self.state.clone()
+        each!(&self.engine, engine => engine.at(&self.model, t))
+    }
+
+    /// Impulses decided at the end of the last frame that act in the next, N s by sphere: with t, x and v all that a
+    /// run continues from.
+    pub fn transient(&self) -> Vec<DVec3> {
+        each!(&self.engine, engine => engine.transient(&self.model))
     }
 
     /// Every contact of the last frame, in the order in which they were handled.
     pub fn contacts(&self) -> &[Contact] {
-        &[]
+        &self.log.contacts
     }
 
     /// The trial steps of the last frame's search for the collision time.
     pub fn probes(&self) -> &[Probe] {
-        &[]
+        &self.log.probes
     }
 
     /// Keep (or stop keeping) every collide, rest and release for [`Simulation::take_events`]. Off at first: it costs
-    /// memory, and never a bit of the result.
+    /// memory, and never a bit of the result. Asked for before the first frame, it includes what happened at load.
     pub fn record_events(&mut self, on: bool) {
-        let _ = on;
+        if !self.log.recording && self.log.tallies.frames > 0 {
+            self.log.events.clear();
+        }
+        self.log.recording = on;
     }
 
     /// The events kept since the last call, in order of time.
     pub fn take_events(&mut self) -> Vec<Contact> {
-        Vec::new()
+        std::mem::take(&mut self.log.events)
     }
 
     /// Counted since t = 0.
     pub fn tallies(&self) -> Tallies {
-        Tallies::default()
+        self.log.tallies
     }
 
     /// Σ ½ m v² − m g·x − F·x at the end of the last frame, J.
     pub fn energy(&self) -> f64 {
-        0.0
+        self.now().energy(&self.model)
     }
 
     /// The same at t = 0, J.
     pub fn initial_energy(&self) -> f64 {
-        0.0
+        self.initial_energy
     }
 
     /// What is being solved with.
@@ -136,13 +238,29 @@ impl Simulation {
         self.settings
     }
 
-    /// From here on, solve with other settings.
+    /// From the next frame on, solve with other settings. A run that stalled tries again.
     pub fn set_settings(&mut self, settings: Settings) {
+        let Simulation { model, engine, log, .. } = self;
+        if settings.method == self.settings.method {
+            each!(engine, engine => engine.retune(model, settings));
+        } else {
+            if log.tallies.frames == 0 {
+                *log = Log { recording: log.recording, ..Log::default() };
+            }
+            let state = each!(&*engine, engine => engine.hand_over(model));
+            *engine = Engines::begin(model, settings, state, log);
+        }
         self.settings = settings;
+        self.stall = None;
     }
 
     /// All that is constant.
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// The state at the end of the last frame, without a copy where the method holds one.
+    fn now(&self) -> Cow<'_, State> {
+        each!(&self.engine, engine => engine.state(&self.model))
     }
 }

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::Model;
+
 /// Time, positions and velocities. P = m v.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct State {
@@ -11,6 +13,29 @@ pub struct State {
     pub x: Vec<DVec3>,
     /// Velocities, m/s, by sphere index.
     pub v: Vec<DVec3>,
+}
+
+impl State {
+    /// 64-bit FNV-1a (standard offset basis and prime) over the little-endian bytes of t, then of x, then of v, in
+    /// index order: equal hashes mean equal bits.
+    pub fn hash(&self) -> u64 {
+        let coordinates = self.x.iter().chain(&self.v).flat_map(|p| p.to_array());
+        std::iter::once(self.t)
+            .chain(coordinates)
+            .flat_map(f64::to_le_bytes)
+            .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+    }
+
+    /// Σ ½ m v² − m g·x − F·x, J, summed in index order.
+    pub fn energy(&self, model: &Model) -> f64 {
+        let of = |i: usize| model.masses[i] * (0.5 * self.v[i].length_squared() - model.acceleration(i).dot(self.x[i]));
+        (0..self.x.len()).map(of).sum()
+    }
+
+    /// Σ m v, kg m/s, summed in index order.
+    pub fn momentum(&self, model: &Model) -> DVec3 {
+        self.v.iter().zip(&model.masses).map(|(v, m)| *v * *m).sum()
+    }
 }
 
 /// Counted work and outcomes since t = 0.

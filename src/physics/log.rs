@@ -1,0 +1,55 @@
+//! What a run tells of itself: the contacts and probes of its last frame, its events, its tallies.
+
+use super::contact::Key;
+use super::{Class, Contact, Probe, Tallies};
+
+/// Filled by the method, read through the door.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Log {
+    /// Every contact of the last frame, in the order in which they were handled.
+    pub(crate) contacts: Vec<Contact>,
+    /// Trial steps of the last frame's search.
+    pub(crate) probes: Vec<Probe>,
+    /// Collide, rest and release rows not yet taken.
+    pub(crate) events: Vec<Contact>,
+    /// Whether events are kept.
+    pub(crate) recording: bool,
+    /// Counted since t = 0.
+    pub(crate) tallies: Tallies,
+    /// Contacts whose rest has begun and not ended, sorted.
+    pub(crate) resting: Vec<Key>,
+}
+
+impl Log {
+    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: nobody can have asked yet).
+    pub(crate) fn event(&mut self, row: Contact) {
+        match row.class {
+            Class::Collide => self.tallies.impacts += 1,
+            Class::Rest => self.tallies.rests += 1,
+            Class::Release => self.tallies.releases += 1,
+            Class::Leave => return,
+        }
+        if self.recording || self.tallies.frames == 0 {
+            self.events.push(row);
+        }
+    }
+
+    /// Compares who rests after a frame, as its contacts (sorted by key) tell, with who rested before: one `rest` row
+    /// when a rest begins, one row of `release` when it ends.
+    pub(crate) fn follow_rests(&mut self, release: impl Fn(Key) -> Contact) {
+        let rests = |c: &&Contact| c.class == Class::Rest;
+        if self.resting.is_empty() && !self.contacts.iter().any(|c| rests(&c)) {
+            return;
+        }
+        let now: Vec<Contact> = self.contacts.iter().filter(rests).copied().collect();
+        let before = std::mem::replace(&mut self.resting, now.iter().map(Contact::key).collect());
+        for row in now.into_iter().filter(|c| before.binary_search(&c.key()).is_err()) {
+            self.event(row);
+        }
+        for gone in before {
+            if self.resting.binary_search(&gone).is_err() {
+                self.event(release(gone));
+            }
+        }
+    }
+}

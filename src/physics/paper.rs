@@ -1,1 +1,0 @@
-//! The source paper's method, as printed.

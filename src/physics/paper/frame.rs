@@ -1,0 +1,149 @@
+//! One frame: opened, ended by the dt or by the search for the collision time, closed with its responses.
+
+use super::super::log::Log;
+use super::super::model::PairSearch;
+use super::super::motion::{Flight, with_flight};
+use super::super::overlap::Overlap;
+use super::super::{Model, Probe};
+use super::trial::{Stage, fly};
+use super::{Paper, Search};
+
+/// What rounding may add to the degree of a contact that must not sink further.
+const ROUNDING: f64 = 1e-12;
+
+impl Paper {
+    /// Goes on with the frame in progress, or opens one; the work that took.
+    pub(super) fn go_on(&mut self, model: &Model, log: &mut Log) -> u64 {
+        let step = match self.trial {
+            Some(step) => step,
+            None => self.open(),
+        };
+        let work = self.compute(model, step);
+        if self.stage == Stage::Complete && self.residue == 0.0 {
+            log.tallies.evaluations += self.finder.evaluations;
+            if self.judge(step, log) {
+                self.close(model, log);
+            }
+        }
+        work
+    }
+
+    /// Opens a frame: what was the end is the start, and what the last responses gave acts now.
+    fn open(&mut self) -> f64 {
+        let limit = self.accepted();
+        self.allowed.clear();
+        self.allowed.extend(self.finder.found.iter().filter(|o| o.degree > limit));
+        std::mem::swap(&mut self.start, &mut self.end);
+        std::mem::swap(&mut self.kicks, &mut self.next);
+        self.search = Search::Whole;
+        self.probes.clear();
+        self.attempt(self.settings.dt);
+        self.settings.dt
+    }
+
+    /// The search (`FindRealCollision`): whether the trial step is accepted; if not, the next one is set out for.
+    fn judge(&mut self, step: f64, log: &mut Log) -> bool {
+        let found = &self.finder.found;
+        let deepest = found.iter().map(|o| o.degree).fold(f64::NEG_INFINITY, f64::max);
+        let too_deep = found.iter().any(|o| o.degree > self.limit(o));
+        let (apart, deep) = match (self.search, too_deep) {
+            (Search::Whole, false) | (Search::Last, _) => return true,
+            (Search::Whole, true) => (0.0, step),
+            (Search::Between { deep, .. }, false) => (step, deep),
+            (Search::Between { apart, .. }, true) => (apart, step),
+        };
+        self.probes.push(Probe { step, degree: deepest });
+        log.tallies.probes += 1;
+        if !too_deep && deepest > 0.0 {
+            return true;
+        }
+        let (t, middle) = (self.start.t, 0.5 * (apart + deep));
+        if t + middle == t + apart || t + middle == t + deep {
+            self.search = Search::Last;
+            self.attempt(deep);
+        } else {
+            self.search = Search::Between { apart, deep };
+            self.attempt(middle);
+        }
+        false
+    }
+
+    /// How deep an overlap may be at the end of this frame.
+    fn limit(&self, overlap: &Overlap) -> f64 {
+        let limit = self.accepted();
+        if overlap.degree <= limit {
+            return limit;
+        }
+        match self.allowed.binary_search_by_key(&overlap.key, |o| o.key) {
+            Ok(k) => self.allowed[k].degree + ROUNDING,
+            Err(_) => limit,
+        }
+    }
+
+    /// Closes the frame at the accepted step: responses for the next frame, contacts, tallies.
+    fn close(&mut self, model: &Model, log: &mut Log) {
+        self.step = self.trial.take().unwrap_or(0.0);
+        std::mem::swap(&mut log.probes, &mut self.probes);
+        let deepest = self.finder.found.iter().map(|o| o.degree).fold(0.0, f64::max);
+        log.tallies.deepest_degree = log.tallies.deepest_degree.max(deepest);
+        log.tallies.frames += 1;
+        self.respond(model, log);
+        self.watch.note(self.end.t - self.start.t, self.step < self.settings.dt, self.settings.dt, log);
+    }
+
+    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`].
+    pub(super) fn is_calm(&self, log: &Log) -> bool {
+        self.finder.found.is_empty() && self.next.list().is_empty() && log.resting.is_empty()
+    }
+
+    /// Whole frames, one after the other, as long as nothing touches; the work that took. The frame in which something
+    /// does is left in progress, its first trial state complete.
+    pub(super) fn cruise(&mut self, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
+        // So many spheres that a frame must be sliced, or that their cells outweigh what is saved here.
+        if model.pairs == PairSearch::Cells {
+            return self.go_on(model, log);
+        }
+        self.kicks.clear();
+        self.allowed.clear();
+        with_flight!(model, flight => self.fly_frames(flight, model, log, goal, work))
+    }
+
+    fn fly_frames<F: Flight>(&mut self, flight: F, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
+        let (dt, n) = (self.settings.dt, model.len());
+        let mut spent = 0;
+        let mut frames = 0;
+        let mut evaluations = 0;
+        let Paper { start, end, finder, .. } = self;
+        let undisturbed = loop {
+            std::mem::swap(start, end);
+            end.t = start.t + dt;
+            finder.begin();
+            self.residue = fly(flight, start, end, 0..n, dt);
+            finder.walls(model, &start.x, &end.x, 0..n);
+            finder.pairs(model, &end.x);
+            spent += n as u64 + finder.evaluations;
+            if !(finder.found.is_empty() && self.residue == 0.0 && end.t > start.t) {
+                break false;
+            }
+            frames += 1;
+            evaluations += finder.evaluations;
+            if end.t >= goal || spent >= work {
+                break true;
+            }
+        };
+        log.tallies.frames += frames;
+        log.tallies.evaluations += evaluations;
+        if frames > 0 {
+            log.contacts.clear();
+            log.probes.clear();
+            self.step = dt;
+        }
+        if !undisturbed {
+            self.search = Search::Whole;
+            self.probes.clear();
+            self.stage = Stage::Complete;
+            self.trial = Some(dt);
+        }
+        spent
+    }
+}

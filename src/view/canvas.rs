@@ -1,0 +1,136 @@
+//! A grid of dots, 2×4 a cell, that remembers for each cell whose colour it takes.
+//!
+//! A cell has one colour: the highest layer drawn into it decides, and within a layer the last, so the same snapshot
+//! always gives the same cells.
+
+use ratatui::{
+    layout::Rect,
+    style::{Color, Modifier, Style},
+};
+
+use super::{
+    glyphs,
+    projection::{ACROSS, DOWN},
+    sheet::Sheet,
+};
+
+/// Who wins a cell's colour, from the lowest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) enum Layer {
+    /// Nothing drawn.
+    #[default]
+    Empty,
+    /// Walls.
+    Wall,
+    /// Arrows of velocities and normals.
+    Arrow,
+    /// Spheres in free flight.
+    Sphere,
+    /// Spheres in contact.
+    Contact,
+    /// The selected sphere.
+    Selected,
+}
+
+/// Colour, attributes and layer of what is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Ink {
+    /// Who wins.
+    pub(super) layer: Layer,
+    color: Color,
+    modifier: Modifier,
+}
+
+impl Ink {
+    /// Ink of a style (its foreground and added attributes) on a layer.
+    pub(super) fn new(layer: Layer, style: Style) -> Ink {
+        Ink { layer, color: style.fg.unwrap_or_default(), modifier: style.add_modifier }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Cell {
+    mask: u8,
+    /// A character in place of the dots.
+    sign: Option<char>,
+    ink: Ink,
+}
+
+/// The dots of one view.
+#[derive(Debug, Clone)]
+pub(super) struct Canvas {
+    columns: usize,
+    cells: Vec<Cell>,
+    width: i32,
+    height: i32,
+}
+
+impl Canvas {
+    /// An empty canvas for so many cells.
+    pub(super) fn new(area: Rect) -> Canvas {
+        let (columns, rows) = (usize::from(area.width), usize::from(area.height));
+        let (width, height) = (i32::from(area.width) * i32::from(ACROSS), i32::from(area.height) * i32::from(DOWN));
+        Canvas { columns, cells: vec![Cell::default(); columns * rows], width, height }
+    }
+
+    /// Dots across.
+    pub(super) fn width(&self) -> i32 {
+        self.width
+    }
+
+    /// Dots down.
+    pub(super) fn height(&self) -> i32 {
+        self.height
+    }
+
+    /// Draws the dot at (x, y), if it is on the canvas.
+    pub(super) fn dot(&mut self, x: i32, y: i32, ink: Ink) {
+        if x < 0 || y < 0 || x >= self.width || y >= self.height {
+            return;
+        }
+        let (x, y) = (x as usize, y as usize);
+        let cell = &mut self.cells[y / 4 * self.columns + x / 2];
+        cell.mask |= glyphs::bit(x % 2, y % 4);
+        if ink.layer >= cell.ink.layer {
+            cell.ink = ink;
+        }
+    }
+
+    /// Puts a character in the cell of the dot at (x, y), in place of its dots, unless one of a higher layer is there.
+    pub(super) fn sign(&mut self, x: i32, y: i32, sign: char, ink: Ink) {
+        if x < 0 || y < 0 || x >= self.width || y >= self.height {
+            return;
+        }
+        let cell = &mut self.cells[y as usize / 4 * self.columns + x as usize / 2];
+        if cell.sign.is_none() || ink.layer >= cell.ink.layer {
+            (cell.sign, cell.ink) = (Some(sign), ink);
+        }
+    }
+
+    /// Writes ASCII text in cells, its first character in the cell of the dot at (x, y).
+    pub(super) fn text(&mut self, x: i32, y: i32, text: &str, ink: Ink) {
+        for (i, character) in text.chars().enumerate() {
+            self.sign(x.saturating_add(2 * i as i32), y, character, ink);
+        }
+    }
+
+    /// Whether the dot at (x, y) is drawn.
+    #[cfg(test)]
+    pub(super) fn has(&self, x: i32, y: i32) -> bool {
+        let (x, y) = (x as usize, y as usize);
+        self.cells[y / 4 * self.columns + x / 2].mask & glyphs::bit(x % 2, y % 4) != 0
+    }
+
+    /// Writes every cell with something in it to the sheet.
+    pub(super) fn paint(&self, area: Rect, sheet: &mut Sheet) {
+        for (i, cell) in self.cells.iter().enumerate() {
+            if cell.mask == 0 && cell.sign.is_none() {
+                continue;
+            }
+            let (column, row) = (i % self.columns, i / self.columns);
+            let target = &mut sheet.buffer[(area.x + column as u16, area.y + row as u16)];
+            target.set_char(cell.sign.unwrap_or_else(|| glyphs::dots(sheet.marker, cell.mask)));
+            (target.fg, target.modifier) = (cell.ink.color, cell.ink.modifier);
+        }
+    }
+}

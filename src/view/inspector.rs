@@ -1,0 +1,195 @@
+//! The inspector: the selected sphere, the run's balance, the frame's contacts, its search for the collision time.
+
+use glam::DVec3;
+use ratatui::{layout::Rect, style::Style};
+
+use super::{
+    Screen,
+    layout::{split_left, split_top},
+    numbers, probes,
+    sheet::{self, Sheet},
+};
+use crate::snapshot::{Class, Contact, Kind, Snapshot};
+
+/// Rows of the run's balance, and those that the contacts should have at least.
+const RUN: usize = 9;
+/// See [`RUN`].
+const CONTACTS: usize = 8;
+
+/// Rows kept for the search for the collision time, if there was one.
+const SEARCH: usize = 6;
+
+/// Draws the inspector.
+pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
+    let (_, area) = split_left(area, 1);
+    let area = Rect { width: area.width.saturating_sub(1), ..area };
+    let mut column = Column { rest: area, sheet };
+    draw_sphere(screen, &mut column);
+    // Only sizes decide what is shown, never how many contacts there are: nothing jumps while it runs.
+    if column.rows() >= RUN + CONTACTS {
+        draw_run(screen.snapshot, &mut column);
+    }
+    draw_contacts(screen.snapshot, &mut column);
+    probes::draw(&screen.snapshot.probes, &mut column);
+}
+
+/// A column written from the top down; what does not fit is left out.
+pub(super) struct Column<'a, 'b> {
+    rest: Rect,
+    sheet: &'a mut Sheet<'b>,
+}
+
+impl Column<'_, '_> {
+    /// Columns across.
+    pub(super) fn width(&self) -> usize {
+        self.rest.width.into()
+    }
+
+    /// Rows left.
+    pub(super) fn rows(&self) -> usize {
+        self.rest.height.into()
+    }
+
+    /// The sheet's styles and signs.
+    pub(super) fn sheet(&self) -> &Sheet<'_> {
+        self.sheet
+    }
+
+    /// A row in one style.
+    pub(super) fn row(&mut self, text: &str, style: Style) {
+        self.pieces(&[(text, style)]);
+    }
+
+    /// A row of pieces.
+    pub(super) fn pieces(&mut self, pieces: &[(&str, Style)]) {
+        let (row, rest) = split_top(self.rest, 1);
+        self.sheet.put_all(row, pieces);
+        self.rest = rest;
+    }
+
+    /// An empty row.
+    pub(super) fn skip(&mut self) {
+        self.rest = split_top(self.rest, 1).1;
+    }
+
+    /// A heading with a faint remark.
+    pub(super) fn heading(&mut self, text: &str, remark: &str) {
+        let palette = self.sheet.palette;
+        self.pieces(&[(text, palette.heading()), ("  ", palette.plain()), (remark, palette.faint())]);
+    }
+
+    /// A name, a value right-aligned below the one above, and a unit.
+    pub(super) fn entry(&mut self, name: &str, value: &str, unit: &str) {
+        let palette = self.sheet.palette;
+        let head = format!("{name:<9}");
+        let value = format!("{value:>10}");
+        self.pieces(&[
+            (&head, palette.faint()),
+            (&value, palette.plain()),
+            (" ", palette.plain()),
+            (unit, palette.faint()),
+        ]);
+    }
+}
+
+/// The selected sphere: position, velocity, speed, kinetic energy, mass, radius.
+fn draw_sphere(screen: &Screen, column: &mut Column) {
+    let snapshot = screen.snapshot;
+    let stage = &snapshot.stage;
+    let chosen = screen.look.selected.and_then(|i| Some((i, snapshot.x.get(i)?, snapshot.v.get(i)?)));
+    let Some((i, x, v)) = chosen else {
+        column.heading("sphere", "none selected");
+        return column.skip();
+    };
+    let name = stage.names.get(i).and_then(|name| name.as_deref()).unwrap_or("");
+    column.heading(&format!("sphere #{i}"), name);
+    draw_vectors(*x, *v, column);
+    let mass = stage.masses.get(i).copied().unwrap_or(f64::NAN);
+    column.entry("speed", &numbers::decimal(v.length(), 10, 4), "m/s");
+    column.entry("kinetic", &numbers::decimal(0.5 * mass * v.length_squared(), 10, 4), "J");
+    column.entry("mass", &numbers::short(mass), "kg");
+    column.entry("radius", &numbers::short(stage.radii.get(i).copied().unwrap_or(f64::NAN)), "m");
+    column.skip();
+}
+
+/// Position and velocity side by side, in columns as wide as there is room for.
+fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
+    let (faint, plain) = (column.sheet().palette.faint(), column.sheet().palette.plain());
+    let width = (column.width().saturating_sub(1) / 2).clamp(9, 14);
+    let decimals = (width - 6).min(6);
+    column.row(&format!(" {:>width$}{:>width$}", "position m", "velocity m/s"), faint);
+    for (axis, x, v) in [("x", x.x, v.x), ("y", x.y, v.y), ("z", x.z, v.z)] {
+        let values = numbers::decimal(x, width, decimals) + &numbers::decimal(v, width, decimals);
+        column.pieces(&[(axis, faint), (&values, plain)]);
+    }
+}
+
+/// Energy and tallies of the whole run.
+fn draw_run(snapshot: &Snapshot, column: &mut Column) {
+    let tallies = snapshot.tallies;
+    column.heading("run", &format!("frame of {} s", numbers::short(snapshot.step)));
+    column.entry("energy", &numbers::decimal(snapshot.energy, 10, 4), "J");
+    let change = (snapshot.energy - snapshot.initial_energy) / snapshot.initial_energy.abs() * 100.0;
+    if change.is_finite() {
+        column.entry("  since 0", &numbers::decimal(change, 10, 4), "%");
+    }
+    column.entry("deepest", &numbers::scientific(tallies.deepest_degree, 10), "degree");
+    column.entry("frames", &numbers::count(tallies.frames), "");
+    column.entry("impacts", &numbers::count(tallies.impacts), "");
+    column.entry("rests", &numbers::count(tallies.rests), "");
+    column.entry("gaps", &numbers::count(tallies.evaluations), "computed");
+    column.skip();
+}
+
+/// Two rows a contact: bodies, class, degree; approach speed before → separation speed after, impulse.
+fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
+    let contacts = &snapshot.contacts;
+    column.heading("contacts", &format!("{} in this frame", contacts.len()));
+    draw_legend(column);
+    let search = if snapshot.probes.is_empty() { 1 } else { SEARCH };
+    let room = (column.rows().saturating_sub(search) / 2).min(contacts.len());
+    for contact in &contacts[..room] {
+        draw_contact(contact, column);
+    }
+    if room < contacts.len() {
+        let faint = column.sheet().palette.faint();
+        column.row(&format!("and {} more", contacts.len() - room), faint);
+    } else {
+        column.skip();
+    }
+}
+
+/// What the two rows of a contact say, in the same columns.
+fn draw_legend(column: &mut Column) {
+    let (faint, arrow) = (column.sheet().palette.faint(), column.sheet().glyphs.arrow);
+    let bodies = column.width().saturating_sub(CLASS + DEGREE);
+    column.row(&format!("{:<bodies$}{:<CLASS$}{:>DEGREE$}", "bodies", "class", "degree"), faint);
+    column.row(&format!("{:>7}{arrow}{:>6} m/s{:>10}", "before", "after", "impulse Ns"), faint);
+}
+
+/// Columns for a contact's class.
+const CLASS: usize = 9;
+/// Columns for its degree.
+const DEGREE: usize = 8;
+
+fn draw_contact(contact: &Contact, column: &mut Column) {
+    let (palette, glyphs) = (column.sheet().palette, column.sheet().glyphs);
+    let bodies = match contact.kind {
+        Kind::Wall => format!("#{}{}wall {}", contact.a, glyphs.with, contact.b),
+        Kind::Pair => format!("#{}{}#{}", contact.a, glyphs.with, contact.b),
+    };
+    let (class, style) = match contact.class {
+        Class::Collide => ("collides", palette.alarm()),
+        Class::Rest => ("rests", palette.notice()),
+        Class::Leave => ("leaves", palette.plain()),
+        Class::Release => ("released", palette.plain()),
+    };
+    let (faint, plain) = (palette.faint(), palette.plain());
+    let pad = " ".repeat(column.width().saturating_sub(CLASS + DEGREE + sheet::width(&bodies)));
+    let (class, degree) = (format!("{class:<CLASS$}"), numbers::scientific(contact.degree, DEGREE));
+    column.pieces(&[(&bodies, plain), (&pad, plain), (&class, style), (&degree, faint)]);
+    let before = numbers::decimal(contact.approach_speed, 7, 3);
+    let after = numbers::decimal(contact.separation_speed, 6, 3);
+    let impulse = numbers::decimal(contact.impulse, 14, 4);
+    column.row(&format!("{before}{}{after}{impulse}", glyphs.arrow), plain);
+}

@@ -1,0 +1,143 @@
+//! What goes where: pure arithmetic on rectangles.
+
+use ratatui::layout::Rect;
+
+use super::{Look, Views};
+
+/// Columns from which on a third column holds the inspector.
+const WIDE: u16 = 110;
+
+/// The screen's plan, by its size.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Plan {
+    /// Under 12×3: says so.
+    TooSmall,
+    /// Under 30×8: numbers only.
+    Numbers {
+        /// All of it.
+        area: Rect,
+    },
+    /// Anything larger: a picture.
+    Full(Full),
+}
+
+/// A screen with a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Full {
+    /// First row.
+    pub(super) status: Rect,
+    /// Everything between status and timeline: panes and inspector, or a popup in their place.
+    pub(super) body: Rect,
+    /// The views, of equal size so that the same x is in the same column of each.
+    pub(super) panes: Vec<Pane>,
+    /// The inspector's place, if it is shown.
+    pub(super) inspector: Option<Rect>,
+    /// The timeline's row, if there is room.
+    pub(super) timeline: Option<Rect>,
+    /// Last row: hints, message or prompt.
+    pub(super) last: Rect,
+}
+
+/// One view: a row for its label over the dots.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pane {
+    /// Which projection.
+    pub(super) side: Side,
+    /// The label's row.
+    pub(super) label: Rect,
+    /// The dots.
+    pub(super) canvas: Rect,
+}
+
+/// The two projections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    /// x right, y up.
+    Side,
+    /// x right, z down the screen.
+    Top,
+}
+
+impl Plan {
+    /// The plan for an area.
+    pub(super) fn new(area: Rect, look: &Look) -> Plan {
+        if area.width < 12 || area.height < 3 {
+            return Plan::TooSmall;
+        }
+        if area.width < 30 || area.height < 8 {
+            return Plan::Numbers { area };
+        }
+        let (rest, last) = split_bottom(area, 1);
+        let (status, rest) = split_top(rest, 1);
+        let (body, timeline) = split_bottom(rest, u16::from(area.height >= 11));
+        let (views, inspector) = split_inspector(body, area, look);
+        let panes = panes(views, area, look, inspector.is_some());
+        let timeline = (timeline.height > 0).then_some(timeline);
+        Plan::Full(Full { status, body, panes, inspector, timeline, last })
+    }
+}
+
+/// The views' part of the body and the inspector's: a third column if wide, else in the side view's place, if at all.
+fn split_inspector(body: Rect, area: Rect, look: &Look) -> (Rect, Option<Rect>) {
+    if area.width >= WIDE {
+        let width = (area.width / 4).clamp(30, 42);
+        let (views, inspector) = split_right(body, width);
+        return (views, Some(inspector));
+    }
+    if !look.inspector {
+        return (body, None);
+    }
+    if area.width < 60 || area.height < 16 {
+        return (Rect { width: 0, ..body }, Some(body));
+    }
+    let (inspector, views) = split_left(body, body.width / 2);
+    (views, Some(inspector))
+}
+
+/// The panes: two of equal width side by side where both are wanted and fit.
+fn panes(views: Rect, area: Rect, look: &Look, inspected: bool) -> Vec<Pane> {
+    let narrow = area.width < 60 || area.height < 16;
+    let replaced = inspected && area.width < WIDE;
+    match look.views {
+        _ if views.is_empty() => Vec::new(),
+        Views::Side => vec![pane(Side::Side, views)],
+        Views::Top => vec![pane(Side::Top, views)],
+        Views::Both if replaced => vec![pane(Side::Top, views)],
+        Views::Both if narrow => vec![pane(Side::Side, views)],
+        Views::Both => {
+            // An odd column is left free in the middle: equal widths keep one x in one column of both.
+            let (left, rest) = split_left(views, views.width / 2);
+            let (_, right) = split_right(rest, views.width / 2);
+            vec![pane(Side::Side, left), pane(Side::Top, right)]
+        }
+    }
+}
+
+/// A pane with its label on top.
+fn pane(side: Side, area: Rect) -> Pane {
+    let (label, canvas) = split_top(area, 1);
+    Pane { side, label, canvas }
+}
+
+/// (first `rows` rows, the rest).
+pub(super) fn split_top(area: Rect, rows: u16) -> (Rect, Rect) {
+    let rows = rows.min(area.height);
+    (Rect { height: rows, ..area }, Rect { y: area.y + rows, height: area.height - rows, ..area })
+}
+
+/// (the rest, last `rows` rows).
+pub(super) fn split_bottom(area: Rect, rows: u16) -> (Rect, Rect) {
+    let (rest, bottom) = split_top(area, area.height.saturating_sub(rows));
+    (rest, bottom)
+}
+
+/// (first `columns` columns, the rest).
+pub(super) fn split_left(area: Rect, columns: u16) -> (Rect, Rect) {
+    let columns = columns.min(area.width);
+    (Rect { width: columns, ..area }, Rect { x: area.x + columns, width: area.width - columns, ..area })
+}
+
+/// (the rest, last `columns` columns).
+pub(super) fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
+    split_left(area, area.width.saturating_sub(columns))
+}

@@ -1,0 +1,124 @@
+//! What lies on the spheres: contact marks, normals, velocity arrows, numbers.
+
+use glam::DVec3;
+
+use super::{
+    canvas::{Ink, Layer},
+    numbers, shapes,
+    sheet::Sheet,
+    stage::View,
+};
+use crate::snapshot::Class;
+
+/// Length of a contact normal seen from the side, dots: three cells high, whatever the zoom.
+const NORMAL: f64 = 12.0;
+
+/// Length of an arrow head's barbs, dots; shorter arrows have none.
+const BARB: f64 = 3.0;
+
+/// Draws normals and velocities, under the spheres.
+pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
+    let overlays = view.screen.look.overlays;
+    if overlays.velocities {
+        draw_velocities(view, sheet);
+    }
+    if overlays.normals {
+        draw_normals(view, sheet);
+    }
+}
+
+/// Draws contact marks and numbers, over the spheres.
+pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
+    let look = view.screen.look;
+    if look.overlays.contacts {
+        draw_contacts(view, sheet);
+    }
+    let spheres = if look.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
+    for sphere in spheres.filter(|sphere| look.selected != Some(*sphere)).chain(look.selected) {
+        draw_number(view, sphere, sheet);
+    }
+}
+
+/// The simulated time that the velocity arrows stand for, s: an arrow ends where its sphere would be after so long
+/// without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of the width, so
+/// that arrows of different frames can be compared; `None` if nothing moves.
+pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
+    let squares = view.screen.snapshot.v.iter().map(|v| v.length_squared()).filter(|square| square.is_finite());
+    let fastest = squares.fold(0.0, f64::max).sqrt();
+    let seconds = view.camera.span(view.area).x * 0.2 / fastest;
+    (seconds.is_finite() && seconds > 0.0).then(|| numbers::round_down(seconds))
+}
+
+fn draw_velocities(view: &mut View, sheet: &Sheet) {
+    let Some(seconds) = arrow_seconds(view) else { return };
+    let ink = Ink::new(Layer::Arrow, sheet.palette.velocity());
+    let snapshot = view.screen.snapshot;
+    for (x, v) in snapshot.x.iter().zip(&snapshot.v) {
+        let (tail, tip) = (view.project(*x), view.project(*x + *v * seconds));
+        draw_arrow(view, tail, tip, ink);
+    }
+}
+
+fn draw_normals(view: &mut View, sheet: &Sheet) {
+    let ink = Ink::new(Layer::Arrow, sheet.palette.normal());
+    for contact in &view.screen.snapshot.contacts {
+        let tip = contact.point + contact.normal * (NORMAL / view.camera.scale);
+        let (foot, tip) = (view.project(contact.point), view.project(tip));
+        draw_arrow(view, foot, tip, ink);
+    }
+}
+
+/// A line with two barbs at 45° to it.
+fn draw_arrow(view: &mut View, tail: shapes::Dots, tip: shapes::Dots, ink: Ink) {
+    shapes::line(&mut view.canvas, tail, tip, ink);
+    let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
+    let length = (dx * dx + dy * dy).sqrt();
+    if length.is_nan() || length < BARB + 1.0 {
+        return;
+    }
+    let (ux, uy) = (dx / length * BARB * 0.7, dy / length * BARB * 0.7);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), ink);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), ink);
+}
+
+/// A sign at each contact point: a cross for an impact, a bullet for a rest, a small dot for what leaves.
+fn draw_contacts(view: &mut View, sheet: &Sheet) {
+    let [collides, rests, leaves] = sheet.glyphs.contact;
+    for contact in &view.screen.snapshot.contacts {
+        let (sign, style) = match contact.class {
+            Class::Collide => (collides, sheet.palette.alarm().patch(sheet.palette.strong())),
+            Class::Rest => (rests, sheet.palette.notice()),
+            Class::Leave | Class::Release => (leaves, sheet.palette.plain()),
+        };
+        if let Some((x, y)) = on_canvas(view, contact.point) {
+            view.canvas.sign(x, y, sign, Ink::new(Layer::Contact, style));
+        }
+    }
+}
+
+/// A sphere's number: in it if it is large enough, else to its upper right. The selected one's has a `#`.
+fn draw_number(view: &mut View, sphere: usize, sheet: &Sheet) {
+    let snapshot = view.screen.snapshot;
+    let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { return };
+    let selected = view.screen.look.selected == Some(sphere);
+    let (text, layer) =
+        if selected { (format!("#{sphere}"), Layer::Selected) } else { (format!("{sphere}"), Layer::Contact) };
+    let Some((x, y)) = on_canvas(view, *x) else { return };
+    let (half, r) = (text.len() as i32, radius * view.camera.scale);
+    // The text is 2 · half dots wide and 4 high; a ring of r dots holds it with a dot to spare on each side.
+    let (x, y) = if r > f64::from(half) + 2.5 {
+        (x - half + 1, y)
+    } else {
+        let aside = r.min(f64::from(view.canvas.width())) + if selected { 4.0 } else { 1.0 };
+        (x + (aside * 0.8) as i32 + 1, y - (aside * 0.8) as i32 - 1)
+    };
+    view.canvas.text(x, y, &text, Ink::new(layer, sheet.palette.strong()));
+}
+
+/// The dot a point falls on, if it is on the canvas.
+fn on_canvas(view: &View, point: DVec3) -> Option<(i32, i32)> {
+    let (x, y) = view.project(point);
+    let (width, height) = (f64::from(view.canvas.width()), f64::from(view.canvas.height()));
+    let inside = x >= -0.5 && y >= -0.5 && x < width - 0.5 && y < height - 0.5;
+    inside.then(|| (x.round() as i32, y.round() as i32))
+}

@@ -1,0 +1,21 @@
+//! The search for the collision time, trial step by trial step.
+
+use super::{inspector::Column, numbers};
+use crate::snapshot::Probe;
+
+/// Draws the trial steps, the last ones if there is no room for all: they are the closest to the collision.
+pub(super) fn draw(probes: &[Probe], column: &mut Column) {
+    if probes.is_empty() || column.rows() < 3 {
+        return;
+    }
+    column.heading("search", &format!("{} trial steps", probes.len()));
+    let (palette, glyphs) = (column.sheet().palette, column.sheet().glyphs);
+    let rows = column.rows().saturating_sub(1);
+    column.row("      step s      degree", palette.faint());
+    for probe in &probes[probes.len() - rows.min(probes.len())..] {
+        let touching = if probe.degree >= 0.0 { glyphs.contact[0] } else { ' ' };
+        let row =
+            format!("{}  {} {touching}", numbers::decimal(probe.step, 12, 9), numbers::scientific(probe.degree, 10));
+        column.row(&row, palette.plain());
+    }
+}

@@ -1,0 +1,54 @@
+//! The last row: the `:` line while it is typed, else news, else key hints.
+
+use ratatui::layout::{Position, Rect};
+
+use super::{
+    Popup, Screen,
+    layout::split_left,
+    sheet::{self, Sheet},
+};
+
+/// Draws the last row.
+pub(super) fn draw_last_row(screen: &Screen, area: Rect, sheet: &mut Sheet) {
+    if let Popup::Prompt { text } = screen.popup {
+        draw_prompt(text, area, sheet);
+    } else if let Some(message) = screen.message {
+        sheet.put(split_left(area, 1).1, message, sheet.palette.notice().patch(sheet.palette.strong()));
+    } else {
+        draw_hints(screen.hints, area, sheet);
+    }
+}
+
+/// The text's end stays visible while it is typed, however long it is.
+fn draw_prompt(text: &str, area: Rect, sheet: &mut Sheet) {
+    let used = sheet.put(area, ":", sheet.palette.strong());
+    let (_, rest) = split_left(area, used);
+    let tail = tail(text, rest.width.saturating_sub(1).into());
+    let used = sheet.put(rest, tail, sheet.palette.plain());
+    sheet.put(split_left(rest, used).1, " ", sheet.palette.reverse());
+}
+
+/// As much of a text's end as fits so many columns.
+fn tail(text: &str, columns: usize) -> &str {
+    let starts = text.char_indices().map(|(i, _)| &text[i..]);
+    starts.chain([""]).find(|tail| sheet::width(tail) <= columns).unwrap_or("")
+}
+
+/// Where the terminal's cursor belongs while the prompt is typed.
+pub(super) fn cursor(text: &str, area: Rect) -> Option<Position> {
+    let column = 1 + sheet::width(tail(text, usize::from(area.width).saturating_sub(2)));
+    (column < area.width.into()).then(|| Position::new(area.x + column as u16, area.y))
+}
+
+/// As many hints as fit whole.
+fn draw_hints(hints: &[(&str, &str)], area: Rect, sheet: &mut Sheet) {
+    let (_, mut rest) = split_left(area, 1);
+    for (keys, does) in hints {
+        if sheet::width(keys) + 1 + sheet::width(does) > rest.width.into() {
+            return;
+        }
+        let pieces = [(*keys, sheet.palette.strong()), (" ", sheet.palette.plain()), (*does, sheet.palette.faint())];
+        let used = sheet.put_all(rest, &pieces);
+        rest = split_left(rest, used + 2).1;
+    }
+}

@@ -1,0 +1,197 @@
+//! Lines, circles and discs in dots. Square roots only (correctly rounded everywhere), so a frame has the same dots on
+//! every machine; nothing ever loops over dots that are off the canvas.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use super::canvas::{Canvas, Ink};
+
+/// A point in dots: the centre of dot (i, j) is (i, j).
+pub(super) type Dots = (f64, f64);
+
+/// A straight line from `a` to `b`: one dot in each column, or each row if it is steep, as far as it is on the canvas.
+/// Nothing if a coordinate is not finite.
+pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, ink: Ink) {
+    let Some((a, b)) = clip(canvas, a, b) else { return };
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let steps = dx.abs().max(dy.abs()).round().max(1.0);
+    let (step_x, step_y) = (dx / steps, dy / steps);
+    for i in 0..=steps as i32 {
+        let i = f64::from(i);
+        canvas.dot((a.0 + i * step_x).round() as i32, (a.1 + i * step_y).round() as i32, ink);
+    }
+}
+
+/// The part of a line that is on the canvas, half a dot of rim included (Liang and Barsky 1984).
+fn clip(canvas: &Canvas, a: Dots, b: Dots) -> Option<(Dots, Dots)> {
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    if !(dx.is_finite() && dy.is_finite()) {
+        return None;
+    }
+    let (right, bottom) = (f64::from(canvas.width()) - 0.5, f64::from(canvas.height()) - 0.5);
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for (along, inside) in [(-dx, a.0 + 0.5), (dx, right - a.0), (-dy, a.1 + 0.5), (dy, bottom - a.1)] {
+        // The line is on this side's inner half where along · s ≤ inside.
+        if along == 0.0 && inside < 0.0 {
+            return None;
+        } else if along < 0.0 {
+            enter = enter.max(inside / along);
+        } else if along > 0.0 {
+            leave = leave.min(inside / along);
+        }
+    }
+    let at = |s: f64| ((a.0 + s * dx).clamp(-0.5, right), (a.1 + s * dy).clamp(-0.5, bottom));
+    (enter <= leave).then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
+}
+
+/// The circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it, in
+/// its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
+pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+    if !meets(canvas, c, r) {
+        return;
+    }
+    let h = r * FRAC_1_SQRT_2;
+    for y in range(c.1 - h, c.1 + h, canvas.height()) {
+        let half = half_chord(r, f64::from(y) - c.1);
+        canvas.dot((c.0 - half).round() as i32, y, ink);
+        canvas.dot((c.0 + half).round() as i32, y, ink);
+    }
+    for x in range(c.0 - h, c.0 + h, canvas.width()) {
+        let half = half_chord(r, f64::from(x) - c.0);
+        canvas.dot(x, (c.1 - half).round() as i32, ink);
+        canvas.dot(x, (c.1 + half).round() as i32, ink);
+    }
+}
+
+/// The disc of radius `r` dots about `c`: every `every`-th row of the dots whose centres are in it, and at least the dot
+/// nearest to `c`.
+pub(super) fn disc(canvas: &mut Canvas, c: Dots, r: f64, every: i32, ink: Ink) {
+    if !meets(canvas, c, r) {
+        return;
+    }
+    canvas.dot(c.0.round() as i32, c.1.round() as i32, ink);
+    for y in range(c.1 - r, c.1 + r, canvas.height()).filter(|y| y % every == 0) {
+        let half = half_chord(r, f64::from(y) - c.1);
+        bar(canvas, (c.0 - half, c.0 + half), y, ink);
+    }
+}
+
+/// The horizontal chord through the centre of the circle of radius `r` dots about `c`.
+pub(super) fn chord(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+    if meets(canvas, c, r) {
+        bar(canvas, (c.0 - r, c.0 + r), c.1.round() as i32, ink);
+    }
+}
+
+/// The dots of a row whose centres are within `ends`.
+fn bar(canvas: &mut Canvas, ends: (f64, f64), y: i32, ink: Ink) {
+    for x in range(ends.0, ends.1, canvas.width()) {
+        canvas.dot(x, y, ink);
+    }
+}
+
+/// Whether any of the disc can be on the canvas; false if a number is not finite.
+fn meets(canvas: &Canvas, c: Dots, r: f64) -> bool {
+    let rim = r.max(1.0) + 1.0;
+    let within = |x: f64, size: i32| x + rim >= 0.0 && x - rim <= f64::from(size);
+    r.is_finite() && within(c.0, canvas.width()) && within(c.1, canvas.height())
+}
+
+/// √(r² − d²): half the chord at distance `d` from the centre, as √((r − d)(r + d)) so that nothing is lost when r is
+/// huge; 0 outside the circle.
+fn half_chord(r: f64, d: f64) -> f64 {
+    ((r - d) * (r + d)).max(0.0).sqrt()
+}
+
+/// The whole numbers from `from` to `to` that are in 0..size.
+fn range(from: f64, to: f64, size: i32) -> std::ops::Range<i32> {
+    // `as` saturates, so infinite ends are cut like all others.
+    let first = from.ceil().max(0.0) as i32;
+    let end = ((to.floor() + 1.0).min(f64::from(size))).max(0.0) as i32;
+    first..end
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::layout::Rect;
+
+    use super::*;
+
+    fn drawn(draw: impl Fn(&mut Canvas)) -> Vec<(i32, i32)> {
+        let mut canvas = Canvas::new(Rect::new(0, 0, 40, 20));
+        draw(&mut canvas);
+        let all = (0..80).flat_map(|y| (0..80).map(move |x| (x, y)));
+        all.filter(|(x, y)| canvas.has(*x, *y)).collect()
+    }
+
+    fn distance(a: Dots, b: (i32, i32)) -> f64 {
+        let (dx, dy) = (f64::from(b.0) - a.0, f64::from(b.1) - a.1);
+        (dx * dx + dy * dy).sqrt()
+    }
+
+    /// Radii and centres that fall everywhere between dots.
+    fn circles() -> impl Iterator<Item = (Dots, f64)> {
+        (0..400).map(|i| {
+            let i = f64::from(i);
+            ((39.0 + (i * 0.37) % 1.0, 41.0 + (i * 0.73) % 1.0), 1.5 + i * 0.09)
+        })
+    }
+
+    #[test]
+    fn every_dot_of_a_circle_is_within_half_a_dot_of_the_true_circle() {
+        for (c, r) in circles() {
+            for dot in drawn(|canvas| circle(canvas, c, r, Ink::default())) {
+                // Half a dot, and rounding of the square root.
+                assert!((distance(c, dot) - r).abs() <= 0.5 + 1e-12, "radius {r} about {c:?}: {dot:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_circle_has_no_holes() {
+        for (c, r) in circles() {
+            let dots = drawn(|canvas| circle(canvas, c, r, Ink::default()));
+            for dot in &dots {
+                let beside = |other: &&(i32, i32)| (other.0 - dot.0).abs().max((other.1 - dot.1).abs()) == 1;
+                assert!(dots.iter().filter(beside).count() >= 2, "radius {r} about {c:?}: {dot:?} is an end");
+            }
+        }
+    }
+
+    #[test]
+    fn a_disc_holds_the_dots_whose_centres_are_in_it() {
+        for (c, r) in circles() {
+            let dots = drawn(|canvas| disc(canvas, c, r, 1, Ink::default()));
+            let inside = (0..80).flat_map(|y| (0..80).map(move |x| (x, y))).filter(|dot| distance(c, *dot) <= r);
+            assert_eq!(dots.len(), inside.count(), "radius {r} about {c:?}");
+        }
+        assert_eq!(drawn(|canvas| disc(canvas, (7.4, 7.4), 1e-9, 1, Ink::default())), [(7, 7)]);
+    }
+
+    #[test]
+    fn a_line_of_any_length_is_drawn_as_far_as_it_is_on_the_canvas() {
+        let diagonal: Vec<(i32, i32)> = (0..80).map(|i| (i, i)).collect();
+        for far in [1e2, 1e5, 1e9] {
+            let ends = ((40.0 - far, 40.0 - far), (40.0 + far, 40.0 + far));
+            assert_eq!(drawn(|canvas| line(canvas, ends.0, ends.1, Ink::default())), diagonal, "to {far}");
+        }
+        let vertical: Vec<(i32, i32)> = (0..80).map(|y| (12, y)).collect();
+        assert_eq!(drawn(|canvas| line(canvas, (12.0, -1e9), (12.0, 1e9), Ink::default())), vertical);
+    }
+
+    #[test]
+    fn a_line_that_misses_the_canvas_or_is_not_finite_draws_nothing() {
+        let far = [(-5.0, 3.0), (-1.0, 90.0), (85.0, 85.0), (1e300, 5.0)];
+        for (a, b) in
+            [(far[0], far[1]), (far[2], far[3]), ((f64::NAN, 0.0), (1.0, 1.0)), ((0.0, f64::INFINITY), (3.0, 3.0))]
+        {
+            assert_eq!(drawn(|canvas| line(canvas, a, b, Ink::default())), [], "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn the_rim_of_an_enormous_circle_is_a_straight_line_of_its_own_slope() {
+        let r = 1e9;
+        let dots = drawn(|canvas| circle(canvas, (40.0 - r, 40.0), r, Ink::default()));
+        assert_eq!(dots, (0..80).map(|y| (40, y)).collect::<Vec<_>>());
+    }
+}

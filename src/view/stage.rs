@@ -1,0 +1,186 @@
+//! One view: its label and scale, the walls' outlines, the spheres, and what lies on them.
+
+use glam::DVec3;
+use ratatui::layout::Rect;
+
+use super::{
+    Screen,
+    canvas::{Canvas, Ink, Layer},
+    layout::{Pane, Side},
+    numbers, overlays,
+    projection::{Camera, sane_zoom},
+    shapes,
+    sheet::{self, Sheet},
+};
+use crate::snapshot::{Class, Kind, Snapshot};
+
+/// Below this radius, dots, a sphere is drawn filled: an outline would have no inside.
+const TINY: f64 = 1.5;
+
+/// Up to this radius, dots, a colliding sphere is filled; larger ones are hatched, so that labels in them stay legible.
+const FILLED: f64 = 12.0;
+
+/// Rows from one line of the hatching to the next, dots: one line a cell.
+const HATCH: i32 = 4;
+
+/// Distance of the selected sphere's second ring from its first, dots.
+const HALO: f64 = 2.0;
+
+/// A view and what is needed to draw on it.
+pub(super) struct View<'a> {
+    /// Which projection.
+    pub(super) side: Side,
+    /// Where it is on the screen, cells.
+    pub(super) area: Rect,
+    /// Metres to dots.
+    pub(super) camera: Camera,
+    /// The dots.
+    pub(super) canvas: Canvas,
+    /// What is shown.
+    pub(super) screen: &'a Screen<'a>,
+}
+
+impl View<'_> {
+    /// Where a world point falls, dots.
+    pub(super) fn project(&self, point: DVec3) -> shapes::Dots {
+        self.camera.project(self.side, point, self.area)
+    }
+}
+
+/// Draws one view with its label.
+pub(super) fn draw(screen: &Screen, pane: &Pane, sheet: &mut Sheet) {
+    let (snapshot, look) = (screen.snapshot, screen.look);
+    let followed = look.selected.filter(|_| look.follow).and_then(|i| snapshot.x.get(i).copied());
+    let camera = Camera::new(look, &snapshot.stage, followed, pane.canvas);
+    let canvas = Canvas::new(pane.canvas);
+    let mut view = View { side: pane.side, area: pane.canvas, camera, canvas, screen };
+    draw_walls(&mut view, sheet);
+    let states = states(snapshot);
+    overlays::draw_arrows(&mut view, sheet);
+    draw_spheres(&mut view, &states, sheet);
+    overlays::draw_signs(&mut view, sheet);
+    view.canvas.paint(pane.canvas, sheet);
+    draw_label(&view, pane.label, sheet);
+}
+
+/// The outline of every wall: four lines, which fall together where the wall is seen edge-on.
+fn draw_walls(view: &mut View, sheet: &Sheet) {
+    let stage = &view.screen.snapshot.stage;
+    for (corners, color) in &stage.walls {
+        let ink = Ink::new(Layer::Wall, sheet.palette.wall(*color));
+        let dots = corners.map(|corner| view.project(corner));
+        for i in 0..4 {
+            shapes::line(&mut view.canvas, dots[i], dots[(i + 1) % 4], ink);
+        }
+    }
+}
+
+/// What a sphere is doing, as far as its shape tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum State {
+    Free,
+    Rests,
+    Collides,
+}
+
+/// What each sphere did in the frame shown; an impact outranks a rest.
+fn states(snapshot: &Snapshot) -> Vec<State> {
+    let mut states = vec![State::Free; snapshot.x.len()];
+    for contact in &snapshot.contacts {
+        let state = match contact.class {
+            Class::Collide => State::Collides,
+            Class::Rest => State::Rests,
+            Class::Leave | Class::Release => continue,
+        };
+        let second = (contact.kind == Kind::Pair).then_some(contact.b);
+        for sphere in [Some(contact.a), second].into_iter().flatten() {
+            if let Some(known) = states.get_mut(sphere) {
+                *known = state.max(*known);
+            }
+        }
+    }
+    states
+}
+
+/// Every sphere as a circle in true proportion; its shape tells what it does.
+fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
+    let snapshot = view.screen.snapshot;
+    let stage = &snapshot.stage;
+    for (i, ((x, radius), state)) in snapshot.x.iter().zip(&stage.radii).zip(states).enumerate() {
+        let selected = view.screen.look.selected == Some(i);
+        let layer = match state {
+            _ if selected => Layer::Selected,
+            State::Free => Layer::Sphere,
+            State::Rests | State::Collides => Layer::Contact,
+        };
+        let style = match state {
+            State::Collides => sheet.palette.alarm(),
+            _ => sheet.palette.sphere(i, stage.colors.get(i).copied().flatten()),
+        };
+        let (center, r) = (view.project(*x), radius * view.camera.scale);
+        draw_sphere(&mut view.canvas, center, r, *state, Ink::new(layer, style));
+        if selected {
+            let ink = Ink::new(layer, sheet.palette.strong());
+            shapes::circle(&mut view.canvas, center, r.max(TINY) + HALO, ink);
+        }
+    }
+}
+
+/// Free: an outline. Resting: with a chord. Colliding: filled. Tiny: a dot or a few, a bar, a cross.
+fn draw_sphere(canvas: &mut Canvas, center: shapes::Dots, r: f64, state: State, ink: Ink) {
+    if r < TINY {
+        shapes::disc(canvas, center, r, 1, ink);
+        match state {
+            State::Free => {}
+            State::Rests => shapes::chord(canvas, center, TINY, ink),
+            State::Collides => {
+                shapes::chord(canvas, center, TINY, ink);
+                shapes::line(canvas, (center.0, center.1 - 1.0), (center.0, center.1 + 1.0), ink);
+            }
+        }
+        return;
+    }
+    shapes::circle(canvas, center, r, ink);
+    match state {
+        State::Free => {}
+        State::Rests => shapes::chord(canvas, center, r, ink),
+        State::Collides if r <= FILLED => shapes::disc(canvas, center, r, 1, ink),
+        State::Collides => shapes::disc(canvas, center, r, HATCH, ink),
+    }
+}
+
+/// The view's name and axes, zoom, and a bar of a round length that holds for both axes.
+fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
+    let (name, axes) = match view.side {
+        Side::Side => ("side", sheet.glyphs.side_axes),
+        Side::Top => ("top-down", sheet.glyphs.top_axes),
+    };
+    let (faint, heading) = (sheet.palette.faint(), sheet.palette.heading());
+    let used = sheet.put_all(label, &[(" ", faint), (name, heading), (" ", faint), (axes, faint)]);
+    let zoom = sane_zoom(view.screen.look.zoom);
+    let mut extra = String::new();
+    if zoom != 1.0 {
+        extra += &format!("  {}{}", sheet.glyphs.times, numbers::short(zoom));
+    }
+    if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.look.overlays.velocities) {
+        extra += &format!("  {} {} s", sheet.glyphs.arrow, numbers::short(seconds));
+    }
+    let scale = scale_bar(view, sheet) + " ";
+    let room = usize::from(label.width - used);
+    let rest = Rect { x: label.x + used, width: label.width - used, ..label };
+    if sheet::width(&extra) + sheet::width(&scale) + 2 <= room {
+        sheet.put(rest, &extra, faint);
+    }
+    if sheet::width(&scale) + 2 <= room {
+        sheet.put_right(rest, &scale, faint);
+    }
+}
+
+/// "2 m ━━━━━━━╸": the largest round length that is at most a quarter of the width, exact to a dot.
+fn scale_bar(view: &View, sheet: &Sheet) -> String {
+    let meters = numbers::round_down(view.camera.span(view.area).x * 0.25);
+    let dots = (meters * view.camera.scale).round().clamp(0.0, f64::from(view.canvas.width())) as usize;
+    let [cell, half] = sheet.glyphs.bar;
+    let half = if dots % 2 == 1 { half } else { "" };
+    format!("{} m {}{half}", numbers::short(meters), cell.repeat(dots / 2))
+}

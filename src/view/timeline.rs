@@ -1,0 +1,82 @@
+//! The timeline: when the impacts were, and where we are.
+
+use ratatui::layout::Rect;
+
+use super::{
+    Screen,
+    layout::{split_left, split_right},
+    numbers,
+    sheet::{self, Sheet},
+};
+
+/// Draws the timeline: 0, a tick for every column with impacts, higher for more, a cursor at t, the end, the count.
+pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
+    let snapshot = screen.snapshot;
+    let end = end(snapshot.t, snapshot.stage.duration);
+    let faint = sheet.palette.faint();
+    let used = sheet.put(area, " 0 ", faint);
+    let (_, rest) = split_left(area, used);
+    let mut right = format!(" {} s ", numbers::short(end));
+    if rest.width >= 50 {
+        right += &format!(" {:>6} impacts ", numbers::count(snapshot.tallies.impacts));
+    }
+    let columns = (sheet::width(&right) as u16).min(rest.width);
+    let (track, right_area) = split_right(rest, columns);
+    sheet.put(right_area, &right, faint);
+    draw_track(screen, end, track, sheet);
+}
+
+/// The time at the track's end, s: the scene's duration, doubled as long as the run is beyond it.
+fn end(t: f64, duration: f64) -> f64 {
+    let mut end = if duration.is_finite() && duration > 0.0 { duration } else { 1.0 };
+    while end < t && end < f64::MAX / 2.0 {
+        end *= 2.0;
+    }
+    end
+}
+
+fn draw_track(screen: &Screen, end: f64, track: Rect, sheet: &mut Sheet) {
+    if track.is_empty() {
+        return;
+    }
+    let bins = columns(screen, end, track.width.into());
+    let most = bins.iter().copied().max().unwrap_or(0).max(1);
+    let [past, future, cursor_sign] = sheet.glyphs.track;
+    let cursor = column(screen.snapshot.t, end, track.width);
+    for (x, impacts) in (0..track.width).zip(bins) {
+        let (sign, style) = match (x, impacts) {
+            (x, _) if x == cursor => (cursor_sign, sheet.palette.notice().patch(sheet.palette.strong())),
+            (_, 1..) => (level(impacts, most, sheet.glyphs.levels), sheet.palette.alarm()),
+            (x, _) if x < cursor => (past, sheet.palette.faint()),
+            _ => (future, sheet.palette.faint()),
+        };
+        sheet.put(Rect { x: track.x + x, width: 1, ..track }, sign.encode_utf8(&mut [0; 4]), style);
+    }
+}
+
+/// The column of a time.
+fn column(t: f64, end: f64, width: u16) -> u16 {
+    ((t / end * f64::from(width)).floor().max(0.0) as u16).min(width - 1)
+}
+
+/// Impacts per column of the track: each bin counts in the column of its middle, or, if bins are wider than columns, in
+/// the first of its columns.
+fn columns(screen: &Screen, end: f64, width: usize) -> Vec<u64> {
+    let ticks = screen.ticks;
+    let mut columns = vec![0_u64; width];
+    let bin = ticks.span / ticks.impacts.len() as f64;
+    for (i, impacts) in ticks.impacts.iter().enumerate().filter(|(_, impacts)| **impacts > 0) {
+        let middle = (i as f64 + 0.5) * bin;
+        if middle < end {
+            columns[usize::from(column(middle, end, width as u16))] += u64::from(*impacts);
+        }
+    }
+    columns
+}
+
+/// The sign for a number of impacts: square roots, so that single impacts are still seen beside crowded columns.
+fn level(impacts: u64, most: u64, levels: &[char]) -> char {
+    let share = (impacts as f64 / most as f64).sqrt();
+    let step = (share * levels.len() as f64).ceil() as usize;
+    levels[step.clamp(1, levels.len()) - 1]
+}

@@ -1,0 +1,93 @@
+//! Builders of scenes in code, for tests that ask about physics and not about files.
+
+use carom::geometry::{Bounds, Parallelogram};
+use carom::physics::{Method, Scene, Settings};
+use carom::scene::{ContactLaw, Sphere, Wall};
+use glam::{DVec3, dvec3};
+
+/// The contact law of the source paper.
+pub(crate) const PAPER_LAW: ContactLaw =
+    ContactLaw { restitution: 0.8, wall_restitution: 0.8, tangential: 0.99, rest_speed: 0.1 };
+
+/// Nothing is lost, nothing rests.
+pub(crate) const ELASTIC: ContactLaw =
+    ContactLaw { restitution: 1.0, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 };
+
+/// `paper` with these knobs.
+pub(crate) fn paper(dt: f64, tolerance: f64) -> Settings {
+    Settings { method: Method::Paper, dt, tolerance }
+}
+
+/// A wall.
+pub(crate) fn wall(center: DVec3, s1: DVec3, s2: DVec3) -> Wall {
+    Wall { shape: Parallelogram { center, s1, s2 }, color: None }
+}
+
+/// A sphere of mass 1 kg.
+pub(crate) fn sphere(x: DVec3, v: DVec3, radius: f64) -> Sphere {
+    Sphere { x, v, mass: 1.0, radius, force: DVec3::ZERO, color: None, name: None }
+}
+
+/// The six walls of a box, in the order and orientation of the source paper's table.
+pub(crate) fn room(min: DVec3, max: DVec3) -> Vec<Wall> {
+    let (c, s) = (0.5 * (min + max), max - min);
+    let (x, y, z) = (DVec3::X * s.x, DVec3::Y * s.y, DVec3::Z * s.z);
+    vec![
+        wall(c - 0.5 * y, x, -z),
+        wall(c + 0.5 * y, x, z),
+        wall(c - 0.5 * z, x, y),
+        wall(c + 0.5 * z, -x, y),
+        wall(c + 0.5 * x, z, y),
+        wall(c - 0.5 * x, -z, y),
+    ]
+}
+
+/// A scene of these bodies.
+pub(crate) fn scene(gravity: DVec3, contact: ContactLaw, walls: Vec<Wall>, spheres: Vec<Sphere>) -> Scene {
+    Scene {
+        name: String::from("built in code"),
+        about: String::new(),
+        gravity,
+        contact,
+        solver: paper(0.01, 1e-3),
+        duration: 20.0,
+        view: Bounds { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) },
+        walls,
+        spheres,
+    }
+}
+
+/// g of the source paper, m/s².
+pub(crate) const G: DVec3 = dvec3(0.0, -9.8, 0.0);
+
+/// Scene `k` of the source paper.
+pub(crate) fn paper_scene(k: usize) -> Scene {
+    let mut walls = room(dvec3(-5.0, 0.0, -2.5), dvec3(5.0, 10.0, 17.5));
+    let long = dvec3(0.0, 0.0, 20.0);
+    let (out, back) = (dvec3(0.0, 0.0, 4.0), dvec3(0.0, 0.0, -4.0));
+    walls.extend(match k {
+        1 | 3 => vec![wall(dvec3(3.0, 3.0, 7.5), long, dvec3(8.0, 6.0, 0.0))],
+        2 => vec![
+            wall(dvec3(0.0, 4.0, -0.5), out, dvec3(10.0, 2.0, 0.0)),
+            wall(dvec3(0.0, 2.0, -0.5), out, dvec3(10.0, -2.0, 0.0)),
+        ],
+        4 => vec![
+            wall(dvec3(-2.5, 2.5, -0.5), dvec3(5.0, -3.0, 0.0), back),
+            wall(dvec3(2.5, 2.5, -0.5), out, dvec3(5.0, 3.0, 0.0)),
+        ],
+        _ => vec![],
+    });
+    let spheres = match k {
+        0 => vec![(dvec3(-4.5, 9.5, 0.0), DVec3::ZERO)],
+        1 => vec![(dvec3(4.5, 5.0, 5.0), dvec3(0.0, 0.0, -2.0))],
+        2 => vec![
+            (dvec3(-4.5, 7.0, -0.5), dvec3(3.0, 2.0, 0.0)),
+            (dvec3(4.5, 3.0, -0.5), dvec3(0.0, 10.0, 0.0)),
+            (dvec3(0.0, 1.0, -0.5), dvec3(0.0, 10.0, 0.0)),
+        ],
+        3 => vec![(dvec3(-4.5, 0.5, 0.0), dvec3(5.0, 0.0, 0.0)), (dvec3(4.5, 5.5, 0.0), dvec3(-3.0, 0.0, 0.0))],
+        _ => vec![(dvec3(-4.5, 9.5, -0.5), dvec3(5.0, 0.0, 0.0)), (dvec3(4.5, 9.5, -0.5), dvec3(-5.0, 0.0, 0.0))],
+    };
+    let spheres = spheres.into_iter().map(|(x, v)| sphere(x, v, 0.5)).collect();
+    scene(G, PAPER_LAW, walls, spheres)
+}
