@@ -11,6 +11,7 @@ pub mod export;
 pub mod frame;
 pub mod geometry;
 pub mod physics;
+pub mod roots;
 pub mod scene;
 pub mod snapshot;
 pub mod terminal;

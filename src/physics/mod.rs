@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 pub mod contact;
+pub mod contact_time;
 mod log;
 pub mod model;
 pub mod motion;

@@ -1,0 +1,405 @@
+//! When do a sphere and a wall, or two spheres, next touch while approaching?
+//!
+//! The event rule (Bannerman, Strobl, Formella, Pöschel, Comput. Part. Mech. 1, 191, 2014): the first t ≥ 0 at which
+//! the gap is ≤ 0 **and** shrinking. So bodies that overlap by rounding and approach meet now, bodies that overlap and
+//! part do not meet, and bodies that overlap, part and are brought back meet at the apex. There are no tolerances in
+//! time and no memory of the last partner.
+//!
+//! Centres move as x + v t + a t²/2. Spheres with equal accelerations and faces are quadratics; edges, corners and
+//! spheres with different accelerations are quartics, solved only where the path comes near enough.
+
+use glam::DVec3;
+
+use super::model::Face;
+use super::motion::normal_velocity;
+use crate::roots::{bound, bracketed, monotone, value};
+
+/// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Path {
+    /// Where at t = 0, m.
+    pub x: DVec3,
+    /// Velocity at t = 0, m/s.
+    pub v: DVec3,
+    /// Acceleration, m/s².
+    pub a: DVec3,
+}
+
+impl Path {
+    /// Position at `t` (s), m.
+    #[inline]
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.x + (self.v + self.a * (0.5 * t)) * t
+    }
+
+    /// Velocity at `t` (s), m/s.
+    #[inline]
+    pub fn velocity(&self, t: f64) -> DVec3 {
+        self.v + self.a * t
+    }
+
+    /// This path seen from `other`.
+    #[inline]
+    pub fn relative_to(&self, other: &Path) -> Path {
+        Path { x: self.x - other.x, v: self.v - other.v, a: self.a - other.a }
+    }
+
+    /// Bounds of a coordinate along `axis` (any vector) over [from, to] (s).
+    fn reach(&self, axis: DVec3, from: f64, to: f64) -> (f64, f64) {
+        let (v, a) = (axis.dot(self.v), axis.dot(self.a));
+        let (start, end) = (axis.dot(self.at(from)), axis.dot(self.at(to)));
+        let apex = -v / a;
+        let turn = if apex > from && apex < to { axis.dot(self.at(apex)) } else { start };
+        (start.min(end).min(turn), start.max(end).max(turn))
+    }
+}
+
+/// The part of a parallelogram that is closest to a point. Edges and corners are numbered along the outline: edge k
+/// runs from corner k to corner k + 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Its inside.
+    Face,
+    /// An edge without its ends.
+    Edge(u8),
+    /// A corner.
+    Corner(u8),
+}
+
+/// A sphere against a wall: where, along which normal, how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// What is touched.
+    pub part: Part,
+    /// The closest point, m.
+    pub point: DVec3,
+    /// Unit normal from it to the centre.
+    pub normal: DVec3,
+    /// Distance of the centre from the closest point − r, m.
+    pub gap: f64,
+}
+
+/// The closest point of a wall to a centre `x` (m) of a sphere of radius `r` (m).
+pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
+    let foot = x - face.shape.center;
+    let (u, w) = (foot.dot(face.dual1), foot.dot(face.dual2));
+    if u.abs() <= 0.5 && w.abs() <= 0.5 {
+        return touch_part(face, Part::Face, x, r);
+    }
+    let corners = face.shape.corners();
+    let mut best = (Part::Corner(0), f64::INFINITY);
+    for k in 0..4 {
+        let (from, to) = (corners[k], corners[(k + 1) % 4]);
+        let along = (x - from).dot(to - from) / (to - from).length_squared();
+        let (part, point) = match along {
+            s if s <= 0.0 => (Part::Corner(k as u8), from),
+            s if s >= 1.0 => (Part::Corner((k as u8 + 1) % 4), to),
+            s => (Part::Edge(k as u8), from + (to - from) * s),
+        };
+        let squared = (x - point).length_squared();
+        if squared < best.1 {
+            best = (part, squared);
+        }
+    }
+    touch_part(face, best.0, x, r)
+}
+
+/// The same with the part already known: a contact that rolls over an edge stays with what it was handed to.
+pub fn touch_part(face: &Face, part: Part, x: DVec3, r: f64) -> Touch {
+    let corners = face.shape.corners();
+    let point = match part {
+        Part::Face => {
+            let height = face.height(x);
+            let side = if height < 0.0 { -1.0 } else { 1.0 };
+            let point = x - face.normal * height;
+            return Touch { part, point, normal: face.normal * side, gap: side * height - r };
+        }
+        Part::Edge(k) => {
+            let (from, to) = (corners[k as usize], corners[(k as usize + 1) % 4]);
+            from + (to - from) * ((x - from).dot(to - from) / (to - from).length_squared())
+        }
+        Part::Corner(k) => corners[k as usize],
+    };
+    let arm = x - point;
+    let distance = arm.length();
+    Touch { part, point, normal: arm / distance, gap: distance - r }
+}
+
+/// Unit vector along edge `k` of a wall.
+pub fn edge_direction(face: &Face, k: u8) -> DVec3 {
+    let side = if k.is_multiple_of(2) { face.shape.s1 } else { face.shape.s2 };
+    side / side.length()
+}
+
+/// What the curvature of a touched part adds to the second derivative of the gap, m/s²: |v_⊥|²/r at an edge or corner.
+pub fn curvature(face: &Face, part: Part, normal: DVec3, v: DVec3, r: f64) -> f64 {
+    let across = v - normal * normal.dot(v);
+    match part {
+        Part::Face => 0.0,
+        Part::Edge(k) => {
+            let along = edge_direction(face, k);
+            (across - along * along.dot(across)).length_squared() / r
+        }
+        Part::Corner(_) => across.length_squared() / r,
+    }
+}
+
+/// The first t ≥ 0 at which c₀ + c₁ t + c₂ t² is ≤ 0 and falling, if any. Stable: q = −(b + sign(b)√D)/2.
+#[inline]
+pub fn quadratic_fall(c: [f64; 3]) -> Option<f64> {
+    let [c0, c1, c2] = c;
+    let half = 0.5 * c1;
+    if half < 0.0 {
+        if c0 <= 0.0 {
+            return Some(0.0);
+        }
+        let discriminant = half * half - c0 * c2;
+        // D = 0 only touches
+        return (discriminant > 0.0).then(|| c0 / (discriminant.sqrt() - half));
+    }
+    if c2 >= 0.0 {
+        return None;
+    }
+    // rises to the apex and falls from there on
+    let discriminant = half * half - c0 * c2;
+    if discriminant <= 0.0 { Some(-half / c2) } else { Some((half + discriminant.sqrt()) / -c2) }
+}
+
+/// The times t in [0, before) from which a quartic is ≤ 0 while falling, one for each stretch on which it falls.
+fn quartic_falls(c: &[f64; 5], before: f64) -> ([f64; 3], usize) {
+    let mut falls = [0.0; 3];
+    let mut count = 0;
+    let end = before.min(bound(c) * 1.01);
+    for [from, to] in monotone(c, 0.0, end).pieces() {
+        let (start, finish) = (value(c, from), value(c, to));
+        if start <= finish || finish > 0.0 || count == 3 {
+            continue;
+        }
+        falls[count] = if start <= 0.0 { from } else { bracketed(c, from, to) };
+        count += 1;
+    }
+    (falls, count)
+}
+
+/// |x + v t + a t²/2|² − reach², lowest power first.
+fn distance_polynomial(path: &Path, reach: f64) -> [f64; 5] {
+    let Path { x, v, a } = *path;
+    [
+        x.length_squared() - reach * reach,
+        2.0 * x.dot(v),
+        v.length_squared() + x.dot(a),
+        v.dot(a),
+        0.25 * a.length_squared(),
+    ]
+}
+
+/// When two spheres whose radii sum to `reach` (m) next meet while approaching, s from now; `path` is that of one
+/// centre seen from the other. Only times below `before` (s) matter.
+#[inline]
+pub fn sphere_sphere(path: &Path, reach: f64, before: f64) -> Option<f64> {
+    if path.a == DVec3::ZERO { straight_pair(path.x, path.v, reach) } else { curved_pair(path, reach, before) }
+}
+
+/// Equal accelerations: |x + v t| = reach.
+#[inline]
+pub fn straight_pair(x: DVec3, v: DVec3, reach: f64) -> Option<f64> {
+    let b = x.dot(v);
+    if b >= 0.0 {
+        return None;
+    }
+    let c = x.length_squared() - reach * reach;
+    if c <= 0.0 {
+        // the handler's own expression decides whether it is an approach
+        return (pair_normal_velocity(x, v) < 0.0).then_some(0.0);
+    }
+    let discriminant = b * b - v.length_squared() * c;
+    (discriminant > 0.0).then(|| c / (discriminant.sqrt() - b))
+}
+
+/// v_n of a pair at offset `x` (m) with relative velocity `v`, m/s: the handler's expression.
+#[inline]
+pub fn pair_normal_velocity(x: DVec3, v: DVec3) -> f64 {
+    normal_velocity(v, DVec3::ZERO, x / x.length())
+}
+
+fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
+    let c = distance_polynomial(path, reach);
+    if c[0] <= 0.0 && pair_normal_velocity(path.x, path.v) < 0.0 {
+        return Some(0.0);
+    }
+    let (falls, count) = quartic_falls(&c, before);
+    let t = falls[..count].first().copied()?;
+    // one Newton step on the distance itself, whose rounding is far below that of its square's polynomial
+    let (x, v) = (path.at(t), path.velocity(t));
+    let closing = pair_normal_velocity(x, v);
+    let polished = if t > 0.0 && closing < 0.0 { (t - (x.length() - reach) / closing).max(0.0) } else { t };
+    let moved = (polished - t).abs() <= 1e-6 * t;
+    Some(if moved { polished } else { t }).filter(|&t| t < before)
+}
+
+/// When a sphere of radius `r` (m) next meets a wall while approaching it, s from now: face, edges and corners, from
+/// both sides. Only times below `before` (s) matter.
+#[inline]
+pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64> {
+    let search = Search { path, r, face, before };
+    let height = [face.height(path.x), face.normal.dot(path.v), 0.5 * face.normal.dot(path.a)];
+    if height[0].abs() > r {
+        let side = if height[0] < 0.0 { -1.0 } else { 1.0 };
+        // the plane is never farther than the wall: nothing can happen before it is within reach
+        let t = quadratic_fall([side * height[0] - r, side * height[1], side * height[2]])?;
+        if t >= before {
+            return None;
+        }
+        if let Some(t) = search.verified(t) {
+            return Some(t);
+        }
+    }
+    search.everywhere(height)
+}
+
+/// One sphere, one wall.
+struct Search<'a> {
+    path: &'a Path,
+    r: f64,
+    face: &'a Face,
+    before: f64,
+}
+
+impl Search<'_> {
+    /// The earliest of all candidates that hold: faces first, since they bound the time for the quartics.
+    fn everywhere(&self, height: [f64; 3]) -> Option<f64> {
+        let now = touch(self.face, self.path.x, self.r);
+        if now.gap <= 0.0 && normal_velocity(self.path.v, DVec3::ZERO, now.normal) < 0.0 {
+            return Some(0.0);
+        }
+        let mut best = Best { time: self.before, found: None };
+        for side in [1.0, -1.0] {
+            let t = quadratic_fall([side * height[0] - self.r, side * height[1], side * height[2]]);
+            best.take(t.filter(|&t| t < best.time).and_then(|t| self.verified(t)));
+        }
+        let (stays, count) = self.stays(height, best.time);
+        for &[from, to] in &stays[..count] {
+            self.outline(from, to, &mut best);
+        }
+        best.found
+    }
+
+    /// When the centre is within reach of the plane, before `end`: edges and corners need looking at only then.
+    fn stays(&self, height: [f64; 3], end: f64) -> ([[f64; 2]; 3], usize) {
+        // a little more than r, so that rounding at the rim of the slab excludes nothing
+        let reach = self.r * (1.0 + 1e-9);
+        let mut cuts = [end; 6];
+        cuts[0] = 0.0;
+        let mut count = 1;
+        for level in [reach, -reach] {
+            for &t in crate::roots::quadratic([height[0] - level, height[1], height[2]]).iter() {
+                if t > 0.0 && t < end {
+                    cuts[count] = t;
+                    count += 1;
+                }
+            }
+        }
+        cuts[..count].sort_unstable_by(f64::total_cmp);
+        let mut stays = [[0.0; 2]; 3];
+        let mut found = 0;
+        for k in 0..count {
+            let (from, to) = (cuts[k], if k + 1 < count { cuts[k + 1] } else { end });
+            let middle = if to.is_finite() { from + 0.5 * (to - from) } else { from + 1.0 };
+            if value(&height, middle).abs() > reach || from >= to {
+                continue;
+            }
+            if found > 0 && stays[found - 1][1] == from {
+                stays[found - 1][1] = to;
+            } else if found < 3 {
+                stays[found] = [from, to];
+                found += 1;
+            }
+        }
+        (stays, found)
+    }
+
+    /// Edges and corners that the path comes near in [from, to].
+    fn outline(&self, from: f64, to: f64, best: &mut Best) {
+        let corners = self.face.shape.corners();
+        let spans = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| self.path.reach(axis, from, to));
+        let near = |a: DVec3, b: DVec3| {
+            let (low, high) = (a.min(b) - DVec3::splat(self.r * 1.001), a.max(b) + DVec3::splat(self.r * 1.001));
+            // NaN from an endless stay counts as near
+            (0..3).all(|i| !(spans[i].1 < low[i] || spans[i].0 > high[i]))
+        };
+        for k in 0..4 {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            if !near(a, b) {
+                continue;
+            }
+            let along = edge_direction(self.face, k as u8);
+            let across = |y: DVec3| y - along * along.dot(y);
+            let path = self.path;
+            let seen = Path { x: path.x - a, v: path.v, a: path.a };
+            let line = Path { x: across(seen.x), v: across(seen.v), a: across(seen.a) };
+            self.falls(&distance_polynomial(&line, self.r), best);
+            if near(a, a) {
+                self.falls(&distance_polynomial(&seen, self.r), best);
+            }
+        }
+    }
+
+    fn falls(&self, c: &[f64; 5], best: &mut Best) {
+        let (falls, count) = quartic_falls(c, best.time);
+        for &t in &falls[..count] {
+            if t < best.time {
+                best.take(self.verified(t));
+            }
+        }
+    }
+
+    /// A candidate holds if the clamped closest point there is at distance r to rounding and approached. Never by
+    /// ranges of (u, v): at a seam both sides would refuse.
+    fn verified(&self, t: f64) -> Option<f64> {
+        let (mut t, mut at) = (t, touch(self.face, self.path.at(t), self.r));
+        for _ in 0..2 {
+            let closing = normal_velocity(self.path.velocity(t), DVec3::ZERO, at.normal);
+            // Newton on the distance itself, whose rounding is far below that of the polynomial; only for a nudge
+            let step = -at.gap / closing;
+            if t == 0.0 || closing >= 0.0 || step.abs() > 1e-6 * t {
+                break;
+            }
+            t += step;
+            at = touch(self.face, self.path.at(t), self.r);
+        }
+        (at.gap <= self.rounding(t) && self.approaching(t, &at)).then_some(t)
+    }
+
+    /// v_n < 0; or v_n = 0 to rounding and about to become negative: the apex of what overlaps, and rest.
+    fn approaching(&self, t: f64, at: &Touch) -> bool {
+        let v = self.path.velocity(t);
+        let closing = normal_velocity(v, DVec3::ZERO, at.normal);
+        let noise = 1e-13 * (self.path.v.length() + v.length());
+        let bends = || at.normal.dot(self.path.a) + curvature(self.face, at.part, at.normal, v, self.r);
+        closing < 0.0 || closing <= noise && bends() < 0.0
+    }
+
+    /// What rounding may leave of a gap that is meant to be 0, m: some hundred ulp of the coordinates and the path.
+    fn rounding(&self, t: f64) -> f64 {
+        let Path { x, v, a } = *self.path;
+        let shape = &self.face.shape;
+        let size = x.length() + shape.center.length() + shape.s1.length() + shape.s2.length() + self.r;
+        let way = (v.length() + 0.5 * a.length() * t) * t;
+        256.0 * f64::EPSILON * (size + way)
+    }
+}
+
+/// The earliest time found so far.
+struct Best {
+    time: f64,
+    found: Option<f64>,
+}
+
+impl Best {
+    fn take(&mut self, t: Option<f64>) {
+        if let Some(t) = t.filter(|&t| t < self.time) {
+            self.time = t;
+            self.found = Some(t);
+        }
+    }
+}
