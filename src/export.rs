@@ -105,9 +105,8 @@ pub struct EventRow {
 }
 
 impl Row for EventRow {
-    const COLUMNS: &'static [&'static str] = &[
-        "time", "kind", "a", "b", "px", "py", "pz", "nx", "ny", "nz", "approach_speed", "impulse", "degree", "class",
-    ];
+    const COLUMNS: &'static [&'static str] =
+        &["time", "kind", "a", "b", "px", "py", "pz", "nx", "ny", "nz", "approach_speed", "impulse", "degree", "class"];
 }
 
 impl From<&Contact> for EventRow {
@@ -170,7 +169,7 @@ impl<W: Write> Table<W> {
             Format::JsonLines => Writer::JsonLines(writer),
             Format::Csv => {
                 let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(writer);
-                csv.write_record(R::COLUMNS)?;
+                csv.write_record(R::COLUMNS).map_err(cause)?;
                 Writer::Csv(Box::new(csv))
             }
         };
@@ -183,7 +182,7 @@ impl<W: Write> Table<W> {
     /// The writer's.
     pub fn write<R: Row>(&mut self, row: &R) -> io::Result<()> {
         match &mut self.writer {
-            Writer::Csv(csv) => Ok(csv.serialize(row)?),
+            Writer::Csv(csv) => csv.serialize(row).map_err(cause),
             Writer::JsonLines(writer) => {
                 serde_json::to_writer(&mut *writer, row)?;
                 writer.write_all(b"\n")
@@ -200,6 +199,14 @@ impl<W: Write> Table<W> {
             Writer::Csv(csv) => csv.into_inner().map_err(csv::IntoInnerError::into_error),
             Writer::JsonLines(writer) => Ok(writer),
         }
+    }
+}
+
+/// The writer's own error, with its kind: a closed pipe must be told from a full disk.
+fn cause(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
     }
 }
 
@@ -256,8 +263,7 @@ mod tests {
     fn no_number_has_more_digits_than_it_needs() {
         let text = written(Format::Csv, &HARD.map(row));
         let times: Vec<_> = text.lines().skip(1).filter_map(|line| line.split(',').next()).collect();
-        let shortest =
-            ["1e300", "5e-324", "-0.0", "3.0", "0.1", "1.7976931348623157e308", "2.2250738585072014e-308"];
+        let shortest = ["1e300", "5e-324", "-0.0", "3.0", "0.1", "1.7976931348623157e308", "2.2250738585072014e-308"];
         assert_eq!(times[..7], shortest);
     }
 
