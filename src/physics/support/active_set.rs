@@ -1,26 +1,42 @@
-//! Active set with a Cholesky factor: exact up to rounding, at any ratio of masses.
+//! Active set on an orthogonal factor: exact up to rounding, at any ratio of masses.
 //!
 //! Source: Lawson, Hanson, Solving Least Squares Problems, ch. 23 (non-negative least squares), with the offsets of
-//! curved contacts added. The contact that closes fastest joins the set of those that hold; those that would have to
-//! pull leave it. A contact that depends on the set (a zero pivot: several tiles under one sphere, a pile held more
-//! often than it can move) stays out, or takes the place of one that then carries nothing. Every step lowers the dual
-//! energy, so that the set never repeats; the passes are bounded all the same.
+//! curved contacts added. Everything is weighted by √m: w = M^½ u₀, and a row's column is g = M^−½ Jᵀ / √A_jj, a unit
+//! vector; then u is the projection of w onto {gⱼ·u + cⱼ ≥ 0}, and comes from Q without the detour of the multipliers,
+//! which among unlike masses cancel in their last digits.
+//!
+//! The contact that closes fastest joins the set of those that hold; those that would have to pull leave it. A contact
+//! that depends on the set (several tiles under one sphere, a pile held more often than it can move) stays out, or
+//! takes the place of one that then carries nothing. Every step lowers the dual energy, so that the set never repeats;
+//! the passes are bounded all the same.
 
-use super::cholesky::{Append, Factor};
+use glam::DVec3;
+
+use super::factor::{Append, Factor};
 use super::problem::{Problem, ROUNDING};
 
-/// Pivots below this share of the diagonal count as zero. A sphere 1e12 times heavier than what it stands on still
-/// has pivots of 1e-12.
-const ZERO_PIVOT: f64 = 64.0 * f64::EPSILON;
+/// A column of which less than this is new depends on the others: rounding makes 1e-16 of it, times the condition of
+/// the set. What a sphere 1e12 times heavier than the one below it adds is 1e-6.
+const DEPENDENT: f64 = 1e-11;
 
 /// The same while a guessed set is taken over: contacts left out by mistake join later.
-const DOUBTFUL_PIVOT: f64 = 1e-10;
+const DOUBTFUL: f64 = 1e-6;
 
 /// Weights below this count as no dependence when a contact takes another's place.
 const ZERO_WEIGHT: f64 = 1e-9;
 
-/// Multipliers, and how many passes they took. Starts from `guess` (≥ 0).
-pub(super) fn solve(problem: &Problem, guess: &[f64]) -> (Vec<f64>, usize) {
+/// What the active set found.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    pub(super) u: Vec<DVec3>,
+    pub(super) multipliers: Vec<f64>,
+    pub(super) passes: usize,
+    /// How many times more rounding than its own each row has to bear.
+    pub(super) slack: Vec<f64>,
+}
+
+/// Solves the problem from the multipliers `guess` (≥ 0).
+pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Found {
     let mut set = ActiveSet::new(problem, guess);
     // Each contact joins and leaves once or twice; far beyond that only rounding is at work.
     let limit = 20 * problem.rows.len() + 50;
@@ -30,70 +46,112 @@ pub(super) fn solve(problem: &Problem, guess: &[f64]) -> (Vec<f64>, usize) {
         set.admit(row);
         passes += 1;
     }
-    set.refine();
-    (set.multipliers, passes)
+    Found { u: set.velocities(), multipliers: set.forces(), passes, slack: set.slack }
 }
 
-/// The contacts that hold, and the factor of their part of A.
+/// The projection of u₀ onto {gⱼ·u + cⱼ = 0} for all rows, both ways: these contacts may pull. Dependent rows are left
+/// to those that they depend on.
+pub(super) fn bind(problem: &Problem) -> Found {
+    let mut set = ActiveSet::new(problem, &[]);
+    for row in 0..problem.rows.len() {
+        set.append(row, DEPENDENT);
+    }
+    for (&row, load) in set.holding.clone().iter().zip(set.project()) {
+        set.loads[row] = load;
+    }
+    Found { u: set.velocities(), multipliers: set.forces(), passes: 1, slack: set.slack }
+}
+
+/// The contacts that hold, and the factor of their columns.
 struct ActiveSet<'a> {
     problem: &'a Problem,
-    /// The holding contacts, in the order of the factor's rows.
+    /// √A_jj of every row.
+    lengths: Vec<f64>,
+    /// The holding contacts, in the order of the factor's columns.
     holding: Vec<usize>,
     holds: Vec<bool>,
     /// Contacts that rounding has refused since the last progress.
     refused: Vec<bool>,
+    /// 1; of a refused row = Σ cᵢ rowᵢ, 1 + Σ |cᵢ|: it inherits the rounding of the rows that it depends on.
+    slack: Vec<f64>,
     factor: Factor,
-    multipliers: Vec<f64>,
+    /// λ √A_jj of every row.
+    loads: Vec<f64>,
+    /// w, three numbers per body.
+    free: Vec<f64>,
+    /// The projection of w for the set as it is, in the same form.
+    u: Vec<f64>,
 }
 
 impl ActiveSet<'_> {
     fn new<'a>(problem: &'a Problem, guess: &[f64]) -> ActiveSet<'a> {
         let count = problem.rows.len();
+        let weighted = |(u, w): (&DVec3, &f64)| (*u / w.sqrt()).to_array();
+        let free: Vec<f64> = problem.free.iter().zip(&problem.inverse_mass).flat_map(weighted).collect();
         let mut set = ActiveSet {
             problem,
+            lengths: (0..count).map(|row| problem.diagonal(row).sqrt()).collect(),
             holding: Vec::new(),
             holds: vec![false; count],
             refused: vec![false; count],
+            slack: vec![1.0; count],
             factor: Factor::default(),
-            multipliers: vec![0.0; count],
+            loads: vec![0.0; count],
+            u: free.clone(),
+            free,
         };
         for (row, &multiplier) in guess.iter().enumerate() {
-            if multiplier > 0.0 && set.append(row, DOUBTFUL_PIVOT) == Append::Added {
-                set.multipliers[row] = multiplier;
+            if multiplier > 0.0 && set.append(row, DOUBTFUL) == Append::Added {
+                set.loads[row] = multiplier * set.lengths[row];
             }
         }
         set.settle();
         set
     }
 
+    /// The non-zero entries of a row's column: body, entry.
+    fn column(&self, row: usize) -> [(usize, DVec3); 2] {
+        let (row, length) = (&self.problem.rows[row], self.lengths[row]);
+        let part = |body: usize| row.normal * (self.problem.inverse_mass[body].sqrt() / length);
+        [(row.a, part(row.a)), row.b.map_or((row.a, DVec3::ZERO), |b| (b, -part(b)))]
+    }
+
+    /// g·u + c of a row, weighted.
+    fn opening(&self, row: usize, u: &[f64]) -> f64 {
+        let at = |body: usize| DVec3::from_slice(&u[3 * body..]);
+        let [p, q] = self.column(row);
+        p.1.dot(at(p.0)) + q.1.dot(at(q.0)) + self.problem.rows[row].offset / self.lengths[row]
+    }
+
     /// The contact outside the set that closes fastest, beyond rounding; the lowest index of equals.
     fn closing(&self) -> Option<usize> {
-        let u = self.problem.response(&self.multipliers);
-        let magnitudes = self.problem.magnitudes(&self.multipliers);
         let mut worst: Option<(usize, f64)> = None;
         for row in (0..self.holds.len()).filter(|&row| !self.holds[row] && !self.refused[row]) {
-            let opening = self.problem.opening(row, &u);
-            let speed = opening / self.problem.diagonal(row).sqrt();
-            let beyond = opening < -ROUNDING * self.problem.size(row, &magnitudes);
-            if beyond && worst.is_none_or(|(_, fastest)| speed < fastest) {
-                worst = Some((row, speed));
+            let opening = self.opening(row, &self.u);
+            let beyond = opening < -ROUNDING * self.problem.size(row) / self.lengths[row];
+            if beyond && worst.is_none_or(|(_, fastest)| opening < fastest) {
+                worst = Some((row, opening));
             }
         }
         worst.map(|(row, _)| row)
     }
 
-    /// Lets `row` join, in the place of another if it depends on the set.
+    /// Lets `row` join, in the place of another if it depends on the set by more than rounding.
     fn admit(&mut self, row: usize) {
-        if let Append::Dependent(weights) = self.append(row, ZERO_PIVOT)
-            && !self.replace(row, &weights)
-        {
-            self.refused[row] = true;
-            return;
+        if let Append::Dependent(weights) = self.append(row, DEPENDENT) {
+            let slack = 1.0 + weights.iter().map(|weight| weight.abs()).sum::<f64>();
+            let rounding = ROUNDING * self.problem.size(row) / self.lengths[row] * slack;
+            if self.opening(row, &self.u) >= -rounding || !self.replace(row, &weights) {
+                self.refused[row] = true;
+                self.slack[row] = slack;
+                return;
+            }
         }
         self.settle();
         // A new contact that rounding throws out at once would be chosen again for ever.
         if self.holds[row] {
             self.refused.fill(false);
+            self.slack.fill(1.0);
         } else {
             self.refused[row] = true;
         }
@@ -101,8 +159,11 @@ impl ActiveSet<'_> {
 
     /// Appends `row` to the factor and the set.
     fn append(&mut self, row: usize, threshold: f64) -> Append {
-        let couplings: Vec<f64> = self.holding.iter().map(|&other| self.problem.coupling(row, other)).collect();
-        let outcome = self.factor.append(&couplings, self.problem.diagonal(row), threshold);
+        let mut column = vec![0.0; self.free.len()];
+        for (body, part) in self.column(row) {
+            column[3 * body..3 * body + 3].iter_mut().zip(part.to_array()).for_each(|(sum, part)| *sum += part);
+        }
+        let outcome = self.factor.append(column, threshold);
         if outcome == Append::Added {
             self.holding.push(row);
             self.holds[row] = true;
@@ -115,20 +176,20 @@ impl ActiveSet<'_> {
     fn replace(&mut self, row: usize, weights: &[f64]) -> bool {
         let mut first: Option<(usize, f64)> = None;
         for (at, &weight) in weights.iter().enumerate() {
-            let share = self.multipliers[self.holding[at]] / weight;
+            let share = self.loads[self.holding[at]] / weight;
             if weight > ZERO_WEIGHT && first.is_none_or(|(_, least)| share < least) {
                 first = Some((at, share));
             }
         }
         let Some((gone, load)) = first else { return false };
         for (&other, weight) in self.holding.iter().zip(weights) {
-            self.multipliers[other] = (self.multipliers[other] - weight * load).max(0.0);
+            self.loads[other] = (self.loads[other] - weight * load).max(0.0);
         }
         self.drop(gone);
-        if self.append(row, ZERO_PIVOT) != Append::Added {
+        if self.append(row, DEPENDENT) != Append::Added {
             return false;
         }
-        self.multipliers[row] = load;
+        self.loads[row] = load;
         true
     }
 
@@ -136,40 +197,51 @@ impl ActiveSet<'_> {
     fn drop(&mut self, at: usize) {
         let row = self.holding.remove(at);
         self.holds[row] = false;
-        self.multipliers[row] = 0.0;
+        self.loads[row] = 0.0;
         self.factor.remove(at);
     }
 
-    /// Solves A z = −(J u₀ + c) for the set, dropping on the way every contact that would have to pull.
+    /// Projects w onto the set, dropping on the way every contact that would have to pull.
     fn settle(&mut self) {
-        while !self.holding.is_empty() {
-            let right: Vec<f64> =
-                self.holding.iter().map(|&row| -self.problem.opening(row, &self.problem.free)).collect();
-            let target = self.factor.solve(&right);
-            let Some(step) = self.step(&target) else {
+        loop {
+            let target = self.project();
+            let Some((last, share)) = self.step(&target) else {
                 for (&row, z) in self.holding.iter().zip(target) {
-                    self.multipliers[row] = z;
+                    self.loads[row] = z;
                 }
                 return;
             };
             for (&row, z) in self.holding.iter().zip(&target) {
-                self.multipliers[row] += step.1 * (z - self.multipliers[row]);
+                self.loads[row] += share * (z - self.loads[row]);
             }
-            self.multipliers[self.holding[step.0]] = 0.0;
+            self.loads[self.holding[last]] = 0.0;
             for at in (0..self.holding.len()).rev() {
-                if self.multipliers[self.holding[at]] <= 0.0 {
+                if self.loads[self.holding[at]] <= 0.0 {
                     self.drop(at);
                 }
             }
         }
     }
 
-    /// The place of the first multiplier to reach 0 on the way to `target`, and the share of the way; none if none does.
+    /// Sets u = w − Q (Qᵀ w + y) with Rᵀ y = c, and returns the loads z = −R⁻¹ (Qᵀ w + y) that do it.
+    fn project(&mut self) -> Vec<f64> {
+        let offsets: Vec<f64> =
+            self.holding.iter().map(|&row| self.problem.rows[row].offset / self.lengths[row]).collect();
+        let y = self.factor.forward_substitute(&offsets);
+        let mut across = self.free.clone();
+        let parts = self.factor.project_out(&mut across);
+        self.factor.project_out(&mut across);
+        self.u = self.factor.combine(&y, across.len());
+        self.u.iter_mut().zip(across).for_each(|(u, across)| *u = across - *u);
+        self.factor.back_substitute(parts.iter().zip(y).map(|(part, y)| -(part + y)).collect())
+    }
+
+    /// The place of the first load to reach 0 on the way to `target`, and the share of the way; none if none does.
     fn step(&self, target: &[f64]) -> Option<(usize, f64)> {
         let mut first: Option<(usize, f64)> = None;
         for (at, (&row, &z)) in self.holding.iter().zip(target).enumerate() {
-            let multiplier = self.multipliers[row];
-            let share = if multiplier > 0.0 { multiplier / (multiplier - z) } else { 0.0 };
+            let load = self.loads[row];
+            let share = if load > 0.0 { load / (load - z) } else { 0.0 };
             if z <= 0.0 && first.is_none_or(|(_, least)| share < least) {
                 first = Some((at, share));
             }
@@ -177,12 +249,14 @@ impl ActiveSet<'_> {
         first
     }
 
-    /// One step of iterative refinement: takes back what rounding has left on the contacts that hold.
-    fn refine(&mut self) {
-        let u = self.problem.response(&self.multipliers);
-        let left: Vec<f64> = self.holding.iter().map(|&row| -self.problem.opening(row, &u)).collect();
-        for (&row, change) in self.holding.iter().zip(self.factor.solve(&left)) {
-            self.multipliers[row] = (self.multipliers[row] + change).max(0.0);
-        }
+    /// u by body, unweighted.
+    fn velocities(&self) -> Vec<DVec3> {
+        let weights = self.problem.inverse_mass.iter();
+        self.u.chunks_exact(3).zip(weights).map(|(u, w)| DVec3::from_slice(u) * w.sqrt()).collect()
+    }
+
+    /// λ by row, unweighted.
+    fn forces(&self) -> Vec<f64> {
+        self.loads.iter().zip(&self.lengths).map(|(load, length)| load / length).collect()
     }
 }

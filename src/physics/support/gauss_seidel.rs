@@ -35,11 +35,11 @@ pub(super) fn solve(problem: &Problem, guess: Vec<f64>, limit: usize) -> Swept {
         }
         for _ in 0..SWEEPS_PER_LOOK {
             // To and fro: a sweep in one direction would lean every island towards its last contact.
-            for row in 0..diagonal.len() {
-                relax(problem, row, diagonal[row], &mut multipliers, &mut u);
+            for (row, &diagonal) in diagonal.iter().enumerate() {
+                relax(problem, row, diagonal, &mut multipliers, &mut u);
             }
-            for row in (0..diagonal.len()).rev() {
-                relax(problem, row, diagonal[row], &mut multipliers, &mut u);
+            for (row, &diagonal) in diagonal.iter().enumerate().rev() {
+                relax(problem, row, diagonal, &mut multipliers, &mut u);
             }
             sweeps += 2;
         }
@@ -58,7 +58,5 @@ fn relax(problem: &Problem, row: usize, diagonal: f64, multipliers: &mut [f64], 
 
 /// Whether every row is complementary to [`PRECISION`].
 fn settled(problem: &Problem, multipliers: &[f64], u: &[glam::DVec3]) -> bool {
-    let magnitudes = problem.magnitudes(multipliers);
-    (0..multipliers.len())
-        .all(|row| problem.residual(row, u, multipliers[row]) <= PRECISION * problem.size(row, &magnitudes))
+    (0..multipliers.len()).all(|row| problem.residual(row, u, multipliers[row]) <= PRECISION * problem.size(row))
 }

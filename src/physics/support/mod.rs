@@ -5,11 +5,14 @@
 //! a = a_applied + M⁻¹ Jᵀ λ, 0 ≤ λ ⊥ J a + k ≥ 0, where k is what the curvature of the contact adds to the second
 //! derivative of its gap. No friction. v⁺ and a are unique; Λ and λ are not where contacts are redundant.
 //!
+//! One contact: closed form. One sphere on few walls: enumeration. Small islands, and those of unlike masses: active set.
+//! Large islands of like masses: projected Gauss–Seidel, and the active set if that has not converged.
+//!
 //! Plain data in, plain data out; nothing here knows of scenes, walls or time.
 
 mod active_set;
-mod cholesky;
 mod enumerate;
+mod factor;
 mod gauss_seidel;
 mod hold;
 mod island;
@@ -23,18 +26,17 @@ use glam::DVec3;
 use gauss_seidel::PRECISION;
 use problem::{Problem, ROUNDING};
 
-/// Rows up to which an island is solved directly at once: beyond, a good guess of the active set saves more than the
-/// sweeps that find it cost.
-const DIRECT_ROWS: usize = 400;
+/// Rows up to which an island is solved directly at once: a millisecond. Beyond, sweeping is cheaper where it converges.
+const DIRECT_ROWS: usize = 160;
 
-/// Rows up to which an island may be solved directly at all: the factor of 4096 rows takes 64 MiB, and seconds.
-const MOST_DIRECT_ROWS: usize = 4096;
+/// Rows up to which an island may be solved directly at all: the cost grows with the cube, to seconds here.
+const MOST_DIRECT_ROWS: usize = 1500;
 
 /// Ratio of masses from which sweeping is not tried: it would need about as many sweeps.
 const UNLIKE_MASSES: f64 = 1e4;
 
 /// Most sweeps over one island.
-const MOST_SWEEPS: usize = 2000;
+const MOST_SWEEPS: usize = 5000;
 
 /// One row of J and its offset c: contact `a` on `b` (or on a wall).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +56,7 @@ pub struct Row {
 pub enum Solver {
     /// One contact, in closed form; or one sphere on a few walls, every set of contacts tried.
     Enumeration,
-    /// Active set with Cholesky.
+    /// Active set on an orthogonal factor.
     ActiveSet,
     /// Projected Gauss–Seidel.
     GaussSeidel,
@@ -148,12 +150,22 @@ pub fn solve(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) 
     solution
 }
 
+/// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0: every row holds and may pull. For the time between events, while it is known
+/// which contacts hold. Returns u by body and λ by row; a row that depends on others is left to them, with λ = 0.
+pub fn bind(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<f64>) {
+    let island = Island { bodies: (0..free.len()).collect(), contacts: (0..rows.len()).collect() };
+    let found = active_set::bind(&Problem::new(inverse_mass, free, rows, &island));
+    (found.u, found.multipliers)
+}
+
 /// One island's answer.
 struct Part {
     u: Vec<DVec3>,
     multipliers: Vec<f64>,
     solver: Solver,
     passes: usize,
+    /// By how much a row's rounding may exceed its own; empty: by nothing.
+    slack: Vec<f64>,
 }
 
 impl Part {
@@ -162,7 +174,7 @@ impl Part {
         let count = problem.rows.len();
         if problem.free.len() == 1 && count <= enumerate::LIMIT {
             let (multipliers, u, passes) = enumerate::solve(problem);
-            return Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes };
+            return Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new() };
         }
         if count == 1 {
             return Part::of_one(problem);
@@ -175,12 +187,13 @@ impl Part {
             return Part::direct(problem, &swept.multipliers);
         }
         let u = problem.response(&swept.multipliers);
-        Part { u, multipliers: swept.multipliers, solver: Solver::GaussSeidel, passes: swept.sweeps }
+        Part { u, multipliers: swept.multipliers, solver: Solver::GaussSeidel, passes: swept.sweeps, slack: Vec::new() }
     }
 
     fn direct(problem: &Problem, guess: &[f64]) -> Part {
-        let (multipliers, passes) = active_set::solve(problem, guess);
-        Part { u: problem.response(&multipliers), multipliers, solver: Solver::ActiveSet, passes }
+        let found = active_set::solve(problem, guess);
+        let (u, multipliers, slack) = (found.u, found.multipliers, found.slack);
+        Part { u, multipliers, solver: Solver::ActiveSet, passes: found.passes, slack }
     }
 
     /// One pair: λ = max(0, −(J u₀ + c)/A), corrected once for what rounding left.
@@ -190,21 +203,29 @@ impl Part {
             let opening = problem.opening(0, &problem.response(&multipliers));
             multipliers[0] = (multipliers[0] - opening / problem.diagonal(0)).max(0.0);
         }
-        Part { u: problem.response(&multipliers), multipliers, solver: Solver::Enumeration, passes: 1 }
+        Part {
+            u: problem.response(&multipliers),
+            multipliers,
+            solver: Solver::Enumeration,
+            passes: 1,
+            slack: Vec::new(),
+        }
     }
 
     /// How good the answer is, and the size of rounding per body.
     fn report(&self, problem: &Problem) -> (Report, Vec<f64>) {
         let precision = if self.solver == Solver::GaussSeidel { 2.0 * PRECISION } else { 2.0 * ROUNDING };
-        let magnitudes = problem.magnitudes(&self.multipliers);
         let (mut residual, mut converged) = (0.0_f64, self.u.iter().all(|u| u.is_finite()));
         for (row, &multiplier) in self.multipliers.iter().enumerate() {
             let left = problem.residual(row, &self.u, multiplier);
-            converged &= left <= precision * problem.size(row, &magnitudes);
+            converged &= left <= precision * problem.size(row) * self.slack.get(row).copied().unwrap_or(1.0);
             residual = residual.max(left);
         }
         let (contacts, solver, passes) = (self.multipliers.len(), self.solver, self.passes);
         let report = Report { contacts, solver, passes, residual, converged };
-        (report, magnitudes.iter().map(|size| precision * size).collect())
+        (report, problem.inverse_mass.iter().map(|w| precision * problem.weight * w.sqrt()).collect())
     }
 }
+
+#[cfg(test)]
+mod agreement;

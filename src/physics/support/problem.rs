@@ -9,8 +9,8 @@ use glam::DVec3;
 use super::Row;
 use super::island::Island;
 
-/// Relative size below which a sum of cancelling terms counts as rounding: 64 ulp. A pile's sphere has at most twelve
-/// neighbours, each of three products; smaller and noise reads as motion, larger and slow releases are missed.
+/// Relative size below which what is left of cancelling terms counts as rounding: 64 ulp. A pile's sphere has at most
+/// twelve neighbours, each of three products; smaller and noise reads as motion, larger and slow releases are missed.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A row in local indices.
@@ -28,6 +28,8 @@ pub(super) struct Problem {
     pub(super) inverse_mass: Vec<f64>,
     pub(super) free: Vec<DVec3>,
     pub(super) rows: Vec<LocalRow>,
+    /// √(Σ m u₀²): every projection is smaller, so rounding of a body's u is this times ulp/√m.
+    pub(super) weight: f64,
 }
 
 impl Problem {
@@ -38,10 +40,12 @@ impl Problem {
             let row = rows[index];
             LocalRow { a: local(row.a), b: row.b.map(local), normal: row.normal, offset: row.offset }
         });
+        let weight: f64 = island.bodies.iter().map(|&body| free[body].length_squared() / inverse_mass[body]).sum();
         Problem {
             rows: rows.collect(),
             inverse_mass: island.bodies.iter().map(|&body| inverse_mass[body]).collect(),
             free: island.bodies.iter().map(|&body| free[body]).collect(),
+            weight: weight.sqrt(),
         }
     }
 
@@ -58,18 +62,6 @@ impl Problem {
         (0..force.len()).map(|body| self.free[body] + force[body] * self.inverse_mass[body]).collect()
     }
 
-    /// Size of the terms that were summed to each body's u: what its rounding is relative to.
-    pub(super) fn magnitudes(&self, multipliers: &[f64]) -> Vec<f64> {
-        let mut size: Vec<f64> = self.free.iter().map(|u| u.length()).collect();
-        for (row, &multiplier) in self.rows.iter().zip(multipliers) {
-            size[row.a] += multiplier.abs() * self.inverse_mass[row.a];
-            if let Some(b) = row.b {
-                size[b] += multiplier.abs() * self.inverse_mass[b];
-            }
-        }
-        size
-    }
-
     /// (J u + c) of one row: how fast that contact opens.
     pub(super) fn opening(&self, row: usize, u: &[DVec3]) -> f64 {
         let row = &self.rows[row];
@@ -77,37 +69,15 @@ impl Problem {
         row.normal.dot(relative) + row.offset
     }
 
-    /// Size of the terms of [`Problem::opening`].
-    pub(super) fn size(&self, row: usize, magnitudes: &[f64]) -> f64 {
-        let row = &self.rows[row];
-        magnitudes[row.a] + row.b.map_or(0.0, |b| magnitudes[b]) + row.offset.abs()
+    /// Size of the terms of [`Problem::opening`]: what its rounding is relative to.
+    pub(super) fn size(&self, row: usize) -> f64 {
+        self.weight * self.diagonal(row).sqrt() + self.rows[row].offset.abs()
     }
 
     /// A diagonal element of A = J M⁻¹ Jᵀ for unit normals.
     pub(super) fn diagonal(&self, row: usize) -> f64 {
         let row = &self.rows[row];
         (self.inverse_mass[row.a] + row.b.map_or(0.0, |b| self.inverse_mass[b])) * row.normal.length_squared()
-    }
-
-    /// Any element of A = J M⁻¹ Jᵀ: rows that share no body do not couple.
-    pub(super) fn coupling(&self, i: usize, j: usize) -> f64 {
-        let (p, q) = (&self.rows[i], &self.rows[j]);
-        let mut sum = 0.0;
-        if p.a == q.a {
-            sum += self.inverse_mass[p.a];
-        }
-        if Some(p.a) == q.b {
-            sum -= self.inverse_mass[p.a];
-        }
-        if let Some(b) = p.b {
-            if b == q.a {
-                sum -= self.inverse_mass[b];
-            }
-            if Some(b) == q.b {
-                sum += self.inverse_mass[b];
-            }
-        }
-        if sum == 0.0 { 0.0 } else { sum * p.normal.dot(q.normal) }
     }
 
     /// Moves u by the multiplier of one row changing by `change`.
