@@ -150,6 +150,14 @@ pub fn solve(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) 
     solution
 }
 
+/// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0: every row holds and may pull. For the time between events, while it is known
+/// which contacts hold. Returns u by body and λ by row; a row that depends on others is left to them, with λ = 0.
+pub fn bind(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<f64>) {
+    let island = Island { bodies: (0..free.len()).collect(), contacts: (0..rows.len()).collect() };
+    let found = active_set::bind(&Problem::new(inverse_mass, free, rows, &island));
+    (found.u, found.multipliers)
+}
+
 /// One island's answer.
 struct Part {
     u: Vec<DVec3>,
