@@ -24,6 +24,9 @@ pub enum Class {
     Release,
 }
 
+/// A contact's two bodies; ordered walls before pairs, then by `a`, then by `b`.
+pub type Key = (Kind, usize, usize);
+
 /// One contact at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
@@ -49,6 +52,13 @@ pub struct Contact {
     pub degree: f64,
     /// What the impact law made of it.
     pub class: Class,
+}
+
+impl Contact {
+    /// Which two bodies.
+    pub fn key(&self) -> Key {
+        (self.kind, self.a, self.b)
+    }
 }
 
 /// One probe of the search for the collision time.

@@ -1,14 +1,7 @@
 //! What a run tells of itself: the contacts and probes of its last frame, its events, its tallies.
 
-use super::{Class, Contact, Kind, Probe, Tallies};
-
-/// A contact's two bodies: wall before pair, then a, then b.
-pub(crate) type Key = (Kind, usize, usize);
-
-/// The key of a contact.
-pub(crate) fn key(contact: &Contact) -> Key {
-    (contact.kind, contact.a, contact.b)
-}
+use super::contact::Key;
+use super::{Class, Contact, Probe, Tallies};
 
 /// Filled by the method, read through the door.
 #[derive(Debug, Clone, Default)]
@@ -23,6 +16,8 @@ pub(crate) struct Log {
     pub(crate) recording: bool,
     /// Counted since t = 0.
     pub(crate) tallies: Tallies,
+    /// Contacts whose rest has begun and not ended, sorted.
+    pub(crate) resting: Vec<Key>,
 }
 
 impl Log {
@@ -36,6 +31,25 @@ impl Log {
         }
         if self.recording || self.tallies.frames == 0 {
             self.events.push(row);
+        }
+    }
+
+    /// Compares who rests after a frame, as its contacts (sorted by key) tell, with who rested before: one `rest` row
+    /// when a rest begins, one row of `release` when it ends.
+    pub(crate) fn follow_rests(&mut self, release: impl Fn(Key) -> Contact) {
+        let rests = |c: &&Contact| c.class == Class::Rest;
+        if self.resting.is_empty() && !self.contacts.iter().any(|c| rests(&c)) {
+            return;
+        }
+        let now: Vec<Contact> = self.contacts.iter().filter(rests).copied().collect();
+        let before = std::mem::replace(&mut self.resting, now.iter().map(Contact::key).collect());
+        for row in now.into_iter().filter(|c| before.binary_search(&c.key()).is_err()) {
+            self.event(row);
+        }
+        for gone in before {
+            if self.resting.binary_search(&gone).is_err() {
+                self.event(release(gone));
+            }
         }
     }
 }

@@ -5,20 +5,26 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
+
 pub mod contact;
 pub mod contact_time;
+mod exact;
 mod log;
 pub mod model;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
 mod paper;
+mod requirements;
+mod sealed;
 pub mod state;
 pub mod support;
 
 pub use contact::{Class, Contact, Kind, Probe};
 use log::Log;
-pub use model::{Method, Model, Scene, Settings};
+pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
+pub use requirements::Requirements;
 pub use state::{Stall, State, Tallies};
 
 /// How far one call of [`Simulation::advance`] should go.
@@ -62,6 +68,7 @@ pub struct Description {
 pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
+        Method::Exact => &exact::DESCRIPTION,
     }
 }
 
@@ -73,7 +80,7 @@ trait Engine {
     fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress;
     /// Takes other settings (of the same method) from the next frame on; a frame in progress is given up, which leaves
     /// no trace, since its result would have followed from the last frame's end alone.
-    fn retune(&mut self, settings: Settings);
+    fn retune(&mut self, model: &Model, settings: Settings);
     /// The state at the end of the last frame.
     fn state(&self, model: &Model) -> Cow<'_, State>;
     /// Time at the end of the last frame, s.
@@ -82,8 +89,12 @@ trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
-    /// The state for another method to begin with: what is still owed to the velocities is paid.
-    fn hand_over(self, model: &Model) -> State;
+    /// Impulses decided at the end of the last frame that act in the next, N s by sphere.
+    fn transient(&self, model: &Model) -> Vec<DVec3>;
+    /// Right after [`Engine::begin`]: with these impulses (N s by sphere) pending instead of its own.
+    fn continue_with(&mut self, transient: &[DVec3]);
+    /// The state for another method to begin with: pending impulses are already in its velocities.
+    fn hand_over(&self, model: &Model) -> State;
 }
 
 /// The methods, dispatched once per call.
@@ -91,6 +102,8 @@ trait Engine {
 enum Engines {
     /// The source paper's.
     Paper(paper::Paper),
+    /// Event by event.
+    Exact(exact::Exact),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -98,6 +111,7 @@ macro_rules! each {
     ($engines:expr, $engine:ident => $call:expr) => {
         match $engines {
             Engines::Paper($engine) => $call,
+            Engines::Exact($engine) => $call,
         }
     };
 }
@@ -106,6 +120,7 @@ impl Engines {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+            Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
         }
     }
 }
@@ -128,6 +143,20 @@ impl Simulation {
         let mut log = Log::default();
         let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
         let initial_energy = model.initial.energy(&model);
+        Simulation { model, settings, engine, log, initial_energy, stall: None }
+    }
+
+    /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
+    /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
+    /// then. Tallies count from here.
+    pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
+        let mut model = Model::new(scene);
+        model.initial.t = t;
+        let mut log = Log::default();
+        let mut engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
+        each!(&mut engine, engine => engine.continue_with(transient));
+        let initial_energy = model.initial.energy(&model);
+        let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
         Simulation { model, settings, engine, log, initial_energy, stall: None }
     }
 
@@ -163,6 +192,12 @@ impl Simulation {
     /// outside the frame counts as its nearer end. Reading never changes the run.
     pub fn at(&self, t: f64) -> State {
         each!(&self.engine, engine => engine.at(&self.model, t))
+    }
+
+    /// Impulses decided at the end of the last frame that act in the next, N s by sphere: with t, x and v all that a
+    /// run continues from.
+    pub fn transient(&self) -> Vec<DVec3> {
+        each!(&self.engine, engine => engine.transient(&self.model))
     }
 
     /// Every contact of the last frame, in the order in which they were handled.
@@ -213,9 +248,12 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: Settings) {
         let Simulation { model, engine, log, .. } = self;
         if settings.method == self.settings.method {
-            each!(engine, engine => engine.retune(settings));
+            each!(engine, engine => engine.retune(model, settings));
         } else {
-            let state = each!(engine.clone(), engine => engine.hand_over(model));
+            if log.tallies.frames == 0 {
+                *log = Log { recording: log.recording, ..Log::default() };
+            }
+            let state = each!(&*engine, engine => engine.hand_over(model));
             *engine = Engines::begin(model, settings, state, log);
         }
         self.settings = settings;

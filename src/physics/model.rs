@@ -6,6 +6,9 @@
 use glam::DVec3;
 
 use super::State;
+use super::neighbors::cell_count;
+use super::requirements::Requirements;
+use super::sealed::sealed;
 use crate::geometry::Parallelogram;
 pub use crate::scene::{ContactLaw, Method, Scene, Settings};
 
@@ -55,6 +58,10 @@ pub struct Model {
     pub pairs: PairSearch,
     /// Where the spheres are at load.
     pub initial: State,
+    /// Whether the scene has gravity.
+    gravity: bool,
+    /// Spheres with a force of their own.
+    forces: usize,
 }
 
 /// A wall with what its tests need: unit normal and the dual vectors of its edges.
@@ -68,15 +75,16 @@ pub struct Face {
     pub dual1: DVec3,
     /// d2 with d2·s2 = 1, d2·s1 = d2·n = 0, 1/m.
     pub dual2: DVec3,
+    /// Whether no sphere can reach its edges, as long as none passes a wall.
+    pub sealed: bool,
 }
 
 impl Face {
-    /// What the tests of a wall of this shape need.
+    /// What the tests of a wall of this shape need, its edges taken as within reach.
     pub fn new(shape: Parallelogram) -> Face {
-        let across = shape.s1.cross(shape.s2);
-        let normal = across / across.length();
+        let normal = shape.normal();
         let (row1, row2) = (shape.s2.cross(normal), normal.cross(shape.s1));
-        Face { shape, normal, dual1: row1 / row1.dot(shape.s1), dual2: row2 / row2.dot(shape.s2) }
+        Face { shape, normal, dual1: row1 / row1.dot(shape.s1), dual2: row2 / row2.dot(shape.s2), sealed: false }
     }
 
     /// Signed distance of `p` (m) from the wall's plane, m; positive on the side of `normal`.
@@ -97,32 +105,47 @@ impl Model {
     /// The model of a validated scene.
     pub fn new(scene: &Scene) -> Model {
         let spheres = &scene.spheres;
-        let forced = spheres.iter().any(|s| s.force != DVec3::ZERO);
-        let pull = match (forced, scene.gravity == DVec3::ZERO) {
-            (true, _) => Pull::PerSphere,
-            (false, true) => Pull::None,
-            (false, false) => Pull::Uniform(scene.gravity),
+        let forces = spheres.iter().filter(|s| s.force != DVec3::ZERO).count();
+        let pull = match (forces, scene.gravity == DVec3::ZERO) {
+            (0, true) => Pull::None,
+            (0, false) => Pull::Uniform(scene.gravity),
+            _ => Pull::PerSphere,
         };
-        let accelerations =
-            if forced { spheres.iter().map(|s| scene.gravity + s.force / s.mass).collect() } else { Vec::new() };
+        let own = spheres.iter().filter(|_| forces > 0).map(|s| scene.gravity + s.force / s.mass);
+        let initial =
+            State { t: 0.0, x: spheres.iter().map(|s| s.x).collect(), v: spheres.iter().map(|s| s.v).collect() };
+        let radii: Vec<f64> = spheres.iter().map(|s| s.radius).collect();
         Model {
             pull,
-            accelerations,
+            accelerations: own.collect(),
             masses: spheres.iter().map(|s| s.mass).collect(),
             inverse_masses: spheres.iter().map(|s| 1.0 / s.mass).collect(),
-            radii: spheres.iter().map(|s| s.radius).collect(),
-            faces: scene.walls.iter().map(|w| Face::new(w.shape)).collect(),
+            faces: faces(scene, &initial.x, &radii),
+            radii,
             law: scene.contact,
             pairs: match spheres.len() {
                 0 | 1 => PairSearch::None,
                 2..=ALL_PAIRS_LIMIT => PairSearch::All,
                 _ => PairSearch::Cells,
             },
-            initial: State {
-                t: 0.0,
-                x: spheres.iter().map(|s| s.x).collect(),
-                v: spheres.iter().map(|s| s.v).collect(),
-            },
+            initial,
+            gravity: scene.gravity != DVec3::ZERO,
+            forces,
+        }
+    }
+
+    /// What it holds and what it leaves out.
+    pub fn requirements(&self) -> Requirements {
+        let n = self.len();
+        Requirements {
+            spheres: n,
+            gravity: self.gravity,
+            forces: self.forces,
+            walls: self.faces.len(),
+            open_edges: 4 * self.faces.iter().filter(|f| !f.sealed).count(),
+            pairs: n as u64 * (n as u64).saturating_sub(1) / 2,
+            search: self.pairs,
+            cells: if self.pairs == PairSearch::Cells { cell_count(n) } else { 0 },
         }
     }
 
@@ -145,4 +168,11 @@ impl Model {
             Pull::PerSphere => self.accelerations[i],
         }
     }
+}
+
+/// The walls of a scene with what their tests need.
+fn faces(scene: &Scene, centers: &[DVec3], radii: &[f64]) -> Vec<Face> {
+    let shapes: Vec<Parallelogram> = scene.walls.iter().map(|w| w.shape).collect();
+    let sealed = sealed(&shapes, centers, radii);
+    shapes.into_iter().zip(sealed).map(|(shape, sealed)| Face { sealed, ..Face::new(shape) }).collect()
 }

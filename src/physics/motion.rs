@@ -8,6 +8,67 @@ use glam::DVec3;
 use super::model::ContactLaw;
 use super::{Class, Kind, Model};
 
+/// What flight does to a velocity; a type for each [`Pull`](super::model::Pull), so that a loop over spheres contains nothing that the
+/// scene does not require.
+pub trait Flight: Copy {
+    /// The velocity of sphere `i` (m/s) a time `h` (s) after it was `v`.
+    fn velocity(self, v: DVec3, i: usize, h: f64) -> DVec3;
+}
+
+/// Nothing accelerates: `Pull::None`.
+#[derive(Debug, Clone, Copy)]
+pub struct Straight;
+
+/// Gravity alone, m/s²: `Pull::Uniform`.
+#[derive(Debug, Clone, Copy)]
+pub struct Uniform(pub DVec3);
+
+/// Accelerations by sphere, m/s²: `Pull::PerSphere`.
+#[derive(Debug, Clone, Copy)]
+pub struct PerSphere<'a>(pub &'a [DVec3]);
+
+impl Flight for Straight {
+    #[inline(always)]
+    fn velocity(self, v: DVec3, _: usize, _: f64) -> DVec3 {
+        v
+    }
+}
+
+impl Flight for Uniform {
+    #[inline(always)]
+    fn velocity(self, v: DVec3, _: usize, h: f64) -> DVec3 {
+        v + self.0 * h
+    }
+}
+
+impl Flight for PerSphere<'_> {
+    #[inline(always)]
+    fn velocity(self, v: DVec3, i: usize, h: f64) -> DVec3 {
+        v + self.0[i] * h
+    }
+}
+
+/// Calls a generic function with the model's type of [`Flight`].
+macro_rules! with_flight {
+    ($model:expr, $flight:ident => $call:expr) => {
+        match $model.pull {
+            $crate::physics::model::Pull::None => {
+                let $flight = $crate::physics::motion::Straight;
+                $call
+            }
+            $crate::physics::model::Pull::Uniform(g) => {
+                let $flight = $crate::physics::motion::Uniform(g);
+                $call
+            }
+            $crate::physics::model::Pull::PerSphere => {
+                let $flight = $crate::physics::motion::PerSphere(&$model.accelerations);
+                $call
+            }
+        }
+    };
+}
+pub(crate) use with_flight;
+
 /// v_n = (v_a − v_b)·n, m/s; positive: leaving. A wall's `v_b` is 0.
 #[inline]
 pub fn normal_velocity(v_a: DVec3, v_b: DVec3, normal: DVec3) -> f64 {

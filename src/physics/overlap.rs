@@ -4,9 +4,14 @@
 //! a pair: distance of the centres minus r1 + r2. Degree: −gap / r, −gap / (r1 + r2) (source: paper 2.2; its distance
 //! to the plane alone jumps at edges and has no root there).
 
+use std::ops::Range;
+
 use glam::DVec3;
 
-use super::model::Face;
+use super::contact::Key;
+use super::model::{Face, PairSearch};
+use super::neighbors::Cells;
+use super::{Kind, Model};
 
 /// Where and how deep two bodies touch (negative degree: apart).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,19 +24,35 @@ pub struct Touch {
     pub degree: f64,
 }
 
-/// A sphere of radius `r` (m) at `x` against a wall. The side of the wall it is on is that of `from`, its centre at the
-/// frame's start: past the plane the degree goes on growing beyond 1, so that a search never accepts the far side.
+/// Two bodies that touch or overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// Which two.
+    pub key: Key,
+    /// How deep, dimensionless.
+    pub degree: f64,
+}
+
+/// A sphere of radius `r` (m) at `x` against a wall. The side it is on is decided by its centre's way from `from` (m),
+/// the frame's start: where that way leads through the face, the degree goes on growing beyond 1 past the plane, so
+/// that no search accepts the far side.
 pub fn wall_touch(face: &Face, from: DVec3, x: DVec3, r: f64) -> Touch {
     let height = face.height(x);
     if face.shades(x) {
-        let side = if face.height(from) < 0.0 { -1.0 } else { 1.0 };
-        let degree = 1.0 - side * height / r;
-        return Touch { point: x - face.normal * height, normal: face.normal * side, degree };
+        let side = side(face, from, x, height);
+        return Touch { point: x - face.normal * height, normal: face.normal * side, degree: 1.0 - side * height / r };
     }
-    let point = closest_on_outline(face, x);
-    let arm = x - point;
+    let arm = face.shape.closest(x).offset;
     let distance = arm.length();
-    Touch { point, normal: arm / distance, degree: 1.0 - distance / r }
+    Touch { point: x - arm, normal: arm / distance, degree: 1.0 - distance / r }
+}
+
+/// +1 or −1: the side of the face from which a centre came to `x` at this height (m) over the plane.
+fn side(face: &Face, from: DVec3, x: DVec3, height: f64) -> f64 {
+    let before = face.height(from);
+    let crossed = (before < 0.0) != (height < 0.0);
+    let came = if crossed && face.shades(from + (x - from) * (before / (before - height))) { before } else { height };
+    if came < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// Gap, m, up to which bodies of size `r` (m) at coordinates of size `at` (m) touch at load: what rounding may leave
@@ -42,20 +63,26 @@ pub fn touching(r: f64, at: f64) -> f64 {
 
 /// Degree of a sphere of radius `r` (m) at `x` with a wall, or nothing if it is below −`slack`. `from` as in
 /// [`wall_touch`].
-#[inline]
-pub fn wall_degree(face: &Face, from: DVec3, x: DVec3, r: f64, slack: f64) -> Option<f64> {
-    let height = face.height(x);
+#[inline(always)]
+fn wall_degree(face: &Face, from: DVec3, x: DVec3, r: f64, slack: f64) -> Option<f64> {
     // The plane is never farther than the parallelogram: most spheres are done here.
-    if height.abs() > r * (1.0 + slack) {
+    if face.height(x).abs() > r * (1.0 + slack) {
         return None;
     }
+    near_wall(face, from, x, r, slack)
+}
+
+/// The rest of [`wall_degree`], for the few spheres near the plane.
+#[cold]
+#[inline(never)]
+fn near_wall(face: &Face, from: DVec3, x: DVec3, r: f64, slack: f64) -> Option<f64> {
     let degree = wall_touch(face, from, x, r).degree;
     (degree >= -slack).then_some(degree)
 }
 
-/// Spheres at `a` and `b` whose radii sum to `reach` (m).
-pub fn pair_touch(a: DVec3, b: DVec3, r_b: f64, reach: f64) -> Touch {
-    let arm = a - b;
+/// Spheres at `a` and `b` (m) of radii `r_a` and `r_b` (m).
+pub fn pair_touch(a: DVec3, b: DVec3, r_a: f64, r_b: f64) -> Touch {
+    let (arm, reach) = (a - b, r_a + r_b);
     let distance = arm.length();
     // Coincident centres have no normal: any fixed one separates them.
     let normal = if distance > 0.0 { arm / distance } else { DVec3::Y };
@@ -63,9 +90,17 @@ pub fn pair_touch(a: DVec3, b: DVec3, r_b: f64, reach: f64) -> Touch {
     Touch { point: b + normal * (r_b - 0.5 * degree * reach), normal, degree }
 }
 
+/// The bodies of `key` as they touch in a state with centres `x` (m); `from` as in [`wall_touch`].
+pub fn touch(model: &Model, from: &[DVec3], x: &[DVec3], (kind, a, b): Key) -> Touch {
+    match kind {
+        Kind::Wall => wall_touch(&model.faces[b], from[a], x[a], model.radii[a]),
+        Kind::Pair => pair_touch(x[a], x[b], model.radii[a], model.radii[b]),
+    }
+}
+
 /// Degree of two spheres whose radii sum to `reach` (m), or nothing if it is below −`slack`.
-#[inline]
-pub fn pair_degree(a: DVec3, b: DVec3, reach: f64, slack: f64) -> Option<f64> {
+#[inline(always)]
+fn pair_degree(a: DVec3, b: DVec3, reach: f64, slack: f64) -> Option<f64> {
     let squared = (a - b).length_squared();
     let limit = reach * (1.0 + slack);
     if squared > limit * limit {
@@ -75,19 +110,160 @@ pub fn pair_degree(a: DVec3, b: DVec3, reach: f64, slack: f64) -> Option<f64> {
     (degree >= -slack).then_some(degree)
 }
 
-/// The point of the parallelogram's outline closest to `p`, m.
-fn closest_on_outline(face: &Face, p: DVec3) -> DVec3 {
-    let corners = face.shape.corners();
-    let mut best = corners[0];
-    let mut least = f64::INFINITY;
-    for (k, &start) in corners.iter().enumerate() {
-        let edge = corners[(k + 1) % 4] - start;
-        let along = ((p - start).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        let point = start + edge * along;
-        let squared = (p - point).length_squared();
-        if squared < least {
-            (best, least) = (point, squared);
+/// All overlaps of one trial state at a time, found in slices: [`Finder::begin`], then [`Finder::walls`] over all
+/// spheres, then [`Finder::pairs`] until it is done.
+#[derive(Debug, Clone, Default)]
+pub struct Finder {
+    /// The overlaps found, a gap of exactly 0 included; sorted by key as soon as all are found.
+    pub found: Vec<Overlap>,
+    /// Degrees computed for the present trial state.
+    pub evaluations: u64,
+    /// Whether bodies that touch but for rounding count too.
+    at_load: bool,
+    /// How many of the overlaps are with walls.
+    walls: usize,
+    stage: Stage,
+    cells: Option<Cells>,
+}
+
+/// What the pair search does next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Stage {
+    /// Lays out the cells.
+    #[default]
+    Open,
+    /// Sorts spheres into cells, from this one on.
+    Scatter(usize),
+    /// Measures distances, from this cell on.
+    Measure(usize),
+}
+
+/// Spheres or cells worked on between two looks at the budget.
+pub const CHUNK: usize = 4096;
+
+/// By how much radii grow for a search at load: more than [`touching`] ever allows.
+const LOAD_GROWTH: f64 = 1.0 + 1e-7;
+
+impl Finder {
+    /// A finder for this model's trial states.
+    pub fn new(model: &Model) -> Finder {
+        let cells = (model.pairs == PairSearch::Cells).then(|| Cells::new(&model.radii));
+        Finder { cells, ..Finder::default() }
+    }
+
+    /// Finds all overlaps of a state with centres `x` (m) in one go, at load also what touches but for rounding; the
+    /// number of degrees computed.
+    pub fn all(&mut self, model: &Model, x: &[DVec3], at_load: bool) -> u64 {
+        self.begin();
+        self.at_load = at_load;
+        self.walls(model, x, x, 0..x.len());
+        while !self.pairs(model, x).0 {}
+        self.at_load = false;
+        self.evaluations
+    }
+
+    /// Forgets the last trial state.
+    #[inline(always)]
+    pub fn begin(&mut self) {
+        self.found.clear();
+        self.evaluations = 0;
+        self.stage = Stage::Open;
+        if let Some(cells) = &mut self.cells {
+            cells.clear();
         }
     }
-    best
+
+    /// Tests these spheres, at `x` (m), against every wall, and counts them into their cells; `from` as in
+    /// [`wall_touch`]. Ranges come in order.
+    #[inline(always)]
+    pub fn walls(&mut self, model: &Model, from: &[DVec3], x: &[DVec3], range: Range<usize>) {
+        if !model.faces.is_empty() {
+            for i in range.clone() {
+                for (w, face) in model.faces.iter().enumerate() {
+                    let slack = self.slack(model.radii[i], x[i], face.shape.center);
+                    if let Some(degree) = wall_degree(face, from[i], x[i], model.radii[i], slack) {
+                        self.found.push(Overlap { key: (Kind::Wall, i, w), degree });
+                    }
+                }
+            }
+            self.evaluations += (range.len() * model.faces.len()) as u64;
+        }
+        if let Some(cells) = &mut self.cells {
+            cells.count(x, range);
+        }
+    }
+
+    /// Goes on with the pairs, after all walls: whether all overlaps are found, and the work that took.
+    #[inline(always)]
+    pub fn pairs(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
+        match model.pairs {
+            PairSearch::None => (true, 0),
+            PairSearch::All => self.every_pair(model, x),
+            PairSearch::Cells => self.near_pairs(model, x),
+        }
+    }
+
+    fn every_pair(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
+        let r = &model.radii;
+        for a in 0..x.len() {
+            for b in a + 1..x.len() {
+                let reach = r[a] + r[b];
+                if let Some(degree) = pair_degree(x[a], x[b], reach, self.slack(reach, x[a], x[b])) {
+                    self.found.push(Overlap { key: (Kind::Pair, a, b), degree });
+                }
+            }
+        }
+        let distances = (x.len() * (x.len() - 1) / 2) as u64;
+        self.evaluations += distances;
+        (true, distances)
+    }
+
+    fn near_pairs(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
+        let Some(cells) = &mut self.cells else { return (true, 0) };
+        match self.stage {
+            Stage::Open => {
+                cells.open();
+                self.walls = self.found.len();
+                self.stage = Stage::Scatter(0);
+                (false, cells.len() as u64 / 4)
+            }
+            Stage::Scatter(from) => {
+                let to = x.len().min(from + CHUNK);
+                let growth = if self.at_load { LOAD_GROWTH } else { 1.0 };
+                cells.scatter(x, &model.radii, growth, from..to);
+                self.stage = if to < x.len() { Stage::Scatter(to) } else { Stage::Measure(0) };
+                (false, (to - from) as u64)
+            }
+            Stage::Measure(from) => {
+                let to = cells.len().min(from + CHUNK);
+                let work = self.measure(model, x, from..to);
+                self.stage = Stage::Measure(to);
+                (self.cells.as_ref().is_none_or(|cells| to == cells.len()), work)
+            }
+        }
+    }
+
+    /// Measures the distances that begin in these cells; the work that took.
+    fn measure(&mut self, model: &Model, x: &[DVec3], range: Range<usize>) -> u64 {
+        let Some(cells) = self.cells.take() else { return 0 };
+        let work = range.len() as u64 / 4;
+        let last = range.end == cells.len();
+        let distances = cells.pairs(range, |a, b| {
+            let reach = model.radii[a] + model.radii[b];
+            let degree = pair_degree(x[a], x[b], reach, self.slack(reach, x[a], x[b]));
+            self.found.extend(degree.map(|degree| Overlap { key: (Kind::Pair, a, b), degree }));
+        });
+        if last {
+            self.found[self.walls..].sort_unstable_by_key(|o| o.key);
+        }
+        self.evaluations += distances;
+        self.cells = Some(cells);
+        work + distances
+    }
+
+    /// The gap that counts as none, in units of the size `r` (m) of the bodies at `p` and `q` (m).
+    #[inline(always)]
+    fn slack(&self, r: f64, p: DVec3, q: DVec3) -> f64 {
+        if self.at_load { touching(r, p.abs().max(q.abs()).max_element()) / r } else { 0.0 }
+    }
 }

@@ -1,11 +1,47 @@
 //! The validated scene: whatever holds a [`Scene`] may rely on every rule of `rules`.
 //!
-//! `file` is the RON shape as written, `rules` every refusal and its message, `generate` the expansion of `Room`,
-//! `Lattice` and `Gas`, `builtin` the scenes embedded in the binary.
+//! A name or path becomes text (`open`, `builtin`), the text its RON shape (`file`, whose numbers are types of `number`),
+//! the shape bodies (`generate`, `gas`), and the bodies a scene (`rules`, with `near` to find overlaps). Whatever is
+//! refused is an [`Error`] that names its place (`locate`).
 
 use glam::DVec3;
 
 use crate::geometry::{Bounds, Parallelogram};
+
+pub mod builtin;
+mod error;
+mod file;
+mod gas;
+mod generate;
+mod locate;
+mod near;
+mod number;
+mod open;
+mod rules;
+mod warnings;
+
+pub use error::Error;
+pub use locate::Position;
+pub use open::{Opened, open};
+pub use warnings::warnings;
+
+/// The scene written in `text`. `origin`, a path or name, is what errors call it; a scene without a name takes its
+/// file stem.
+///
+/// # Errors
+/// The first rule that the scene breaks.
+pub fn parse(text: &str, origin: &str) -> Result<Scene, Error> {
+    // Some editors begin a file with a byte order mark; it is no part of the text.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let source = error::Source { text, origin };
+    rules::validated(file::read(source)?, source)
+}
+
+/// The file stem of a path, or the name itself, without control characters and of bounded length.
+fn key(origin: &str) -> String {
+    let stem = std::path::Path::new(origin).file_stem().map_or(origin.into(), |stem| stem.to_string_lossy());
+    stem.chars().filter(|&c| !c.is_control() && !error::is_format(c)).take(100).collect()
+}
 
 /// An sRGB colour, each channel in [0, 1].
 pub type Color = [f64; 3];
@@ -51,16 +87,19 @@ pub struct ContactLaw {
 pub enum Method {
     /// The source paper's: Euler frames, bisection, impulses over the next step.
     Paper,
+    /// Event-driven: parabolas between contacts whose times are computed; no time step.
+    Exact,
 }
 
 impl Method {
     /// Every method, in the order in which `m` cycles through them.
-    pub const ALL: &'static [Method] = &[Method::Paper];
+    pub const ALL: &'static [Method] = &[Method::Paper, Method::Exact];
 
     /// The word used in scene files, options and columns.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Paper => "paper",
+            Method::Exact => "exact",
         }
     }
 

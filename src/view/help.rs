@@ -7,65 +7,89 @@ use super::{
     sheet::{self, Sheet},
 };
 
-/// Columns between keys and what they do, and around a column of the table.
-const GAP: usize = 2;
+/// Columns that a column of the table needs at least.
+const LEAST: u16 = 36;
 
-/// Columns that a description needs at least for a further column of the table.
-const LEAST: usize = 22;
+/// Columns for keys at most; longer ones go on in the next row, as do descriptions.
+const KEYS: usize = 11;
+
+/// A row of the table: a piece of the keys, a piece of what they do.
+type Row = (String, String);
 
 /// Draws the table in the body, scrolled down by so many rows.
-pub(super) fn draw(rows: &[(&str, &str)], scroll: usize, body: Rect, sheet: &mut Sheet) {
+pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &mut Sheet) {
     let (head, table) = split_top(body, u16::from(body.height > 2));
-    let height = usize::from(table.height);
-    if height == 0 || rows.is_empty() {
+    if table.is_empty() {
         return;
     }
-    let keys = rows.iter().map(|(keys, _)| sheet::width(keys)).max().unwrap_or(0);
-    let columns = columns(rows, keys, table);
-    let lines = rows.len().div_ceil(columns);
+    let keys = entries.iter().map(|(keys, _)| sheet::width(keys)).max().unwrap_or(0).min(KEYS) as u16;
+    let columns = columns(entries, keys, table);
+    let width = table.width / columns.len().max(1) as u16;
+    let lines = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let height = usize::from(table.height);
     let scroll = scroll.min(lines.saturating_sub(height));
-    draw_head(lines, scroll, height, head, sheet);
-    let width = usize::from(table.width) / columns;
-    for column in 0..columns {
-        let entries = rows.iter().skip(column * lines).take(lines).skip(scroll).take(height);
-        let (_, mut place) = split_left(table, (column * width) as u16);
-        place.width = width as u16;
-        for (keys_text, does) in entries {
-            let (_, inner) = split_left(place, 1);
-            let gap = keys - sheet::width(keys_text);
-            let used = sheet.put(inner, keys_text, sheet.palette.strong()) + (gap + GAP) as u16;
-            let text = split_left(inner, used).1;
-            sheet.put(split_left(text, text.width.saturating_sub(1)).0, does, sheet.palette.plain());
-            place = split_top(place, 1).1;
-            place.height = 1;
+    draw_head(scroll, lines.saturating_sub(scroll + height), head, sheet);
+    for (i, column) in columns.iter().enumerate() {
+        let mut rest = split_left(split_left(table, i as u16 * width).1, width).0;
+        for row in column.iter().skip(scroll).take(height) {
+            let (line, below) = split_top(rest, 1);
+            draw_row(row, keys, line, sheet);
+            rest = below;
         }
     }
 }
 
-/// As few columns as show everything, and never more than fit.
-fn columns(rows: &[(&str, &str)], keys: usize, table: Rect) -> usize {
-    let does = rows.iter().map(|(_, does)| sheet::width(does)).max().unwrap_or(0);
-    let width = usize::from(table.width);
-    let fit = (width / (keys + GAP + 2 + does.clamp(1, LEAST))).max(1);
-    let needed = rows.len().div_ceil(usize::from(table.height));
-    needed.clamp(1, fit)
+/// As few columns as show everything at once, and never more than fit side by side; entries stay whole.
+fn columns(entries: &[(&str, &str)], keys: u16, table: Rect) -> Vec<Vec<Row>> {
+    let most = (table.width / LEAST).max(1);
+    let split = |count: u16| fill(entries, keys, count, table);
+    let fits = |columns: &Vec<Vec<Row>>| columns.iter().all(|column| column.len() <= table.height.into());
+    (1..most).map(split).find(fits).unwrap_or_else(|| split(most))
 }
 
-fn draw_head(lines: usize, scroll: usize, height: usize, head: Rect, sheet: &mut Sheet) {
+/// The entries over `count` columns of about the same height.
+fn fill(entries: &[(&str, &str)], keys: u16, count: u16, table: Rect) -> Vec<Vec<Row>> {
+    let does = (table.width / count).saturating_sub(keys + 4);
+    let blocks: Vec<Vec<Row>> = entries.iter().map(|entry| block(entry, keys, does)).collect();
+    let share = blocks.iter().map(Vec::len).sum::<usize>().div_ceil(count.into());
+    let mut columns = vec![Vec::new()];
+    for block in blocks {
+        let last = columns.len() - 1;
+        if !columns[last].is_empty() && columns[last].len() + block.len() > share && columns.len() < count.into() {
+            columns.push(block);
+        } else {
+            columns[last].extend(block);
+        }
+    }
+    columns
+}
+
+/// The rows of one entry, its keys and description wrapped side by side.
+fn block(entry: &(&str, &str), keys: u16, does: u16) -> Vec<Row> {
+    let (keys, does) = (sheet::wrap(entry.0, keys), sheet::wrap(entry.1, does));
+    let row = |i: usize| (keys.get(i).cloned().unwrap_or_default(), does.get(i).cloned().unwrap_or_default());
+    (0..keys.len().max(does.len())).map(row).collect()
+}
+
+fn draw_row(row: &Row, keys: u16, line: Rect, sheet: &mut Sheet) {
+    let (_, line) = split_left(line, 1);
+    sheet.put(split_left(line, keys).0, &row.0, sheet.palette.strong());
+    let (_, does) = split_left(line, keys + 2);
+    sheet.put(split_left(does, does.width.saturating_sub(1)).0, &row.1, sheet.palette.plain());
+}
+
+fn draw_head(above: usize, below: usize, head: Rect, sheet: &mut Sheet) {
     let palette = sheet.palette;
-    let below = lines.saturating_sub(scroll + height);
-    let mut remark = String::new();
-    if scroll > 0 {
-        remark += &format!("{} {scroll} above  ", sheet.glyphs.more[0]);
+    let mut remark = String::from("   ");
+    if above > 0 {
+        remark += &format!("{} {above} above  ", sheet.glyphs.more[0]);
     }
     if below > 0 {
         remark += &format!("{} {below} below  ", sheet.glyphs.more[1]);
     }
-    sheet.put_all(
-        head,
-        &[(" ", palette.plain()), ("keys", palette.heading()), ("   ", palette.plain()), (&remark, palette.faint())],
-    );
-    if !head.is_empty() {
-        sheet.put_right(split_left(head, head.width - 1).0, "Esc closes", palette.faint());
+    let used = sheet.put_all(head, &[(" ", palette.plain()), ("keys", palette.heading()), (&remark, palette.faint())]);
+    let (_, rest) = split_left(head, used);
+    if rest.width > 12 {
+        sheet.put_right(split_left(rest, rest.width - 1).0, "Esc closes", palette.faint());
     }
 }

@@ -1,5 +1,6 @@
 //! The inspector: the selected sphere, the run's balance, the frame's contacts, its search for the collision time.
 
+use glam::DVec3;
 use ratatui::{layout::Rect, style::Style};
 
 use super::{
@@ -10,13 +11,24 @@ use super::{
 };
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
 
+/// Rows of the run's balance, and those that the contacts should have at least.
+const RUN: usize = 9;
+/// See [`RUN`].
+const CONTACTS: usize = 8;
+
+/// Rows kept for the search for the collision time, if there was one.
+const SEARCH: usize = 6;
+
 /// Draws the inspector.
 pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (_, area) = split_left(area, 1);
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let mut column = Column { rest: area, sheet };
     draw_sphere(screen, &mut column);
-    draw_run(screen.snapshot, &mut column);
+    // Only sizes decide what is shown, never how many contacts there are: nothing jumps while it runs.
+    if column.rows() >= RUN + CONTACTS {
+        draw_run(screen.snapshot, &mut column);
+    }
     draw_contacts(screen.snapshot, &mut column);
     probes::draw(&screen.snapshot.probes, &mut column);
 }
@@ -28,6 +40,11 @@ pub(super) struct Column<'a, 'b> {
 }
 
 impl Column<'_, '_> {
+    /// Columns across.
+    pub(super) fn width(&self) -> usize {
+        self.rest.width.into()
+    }
+
     /// Rows left.
     pub(super) fn rows(&self) -> usize {
         self.rest.height.into()
@@ -86,13 +103,7 @@ fn draw_sphere(screen: &Screen, column: &mut Column) {
     };
     let name = stage.names.get(i).and_then(|name| name.as_deref()).unwrap_or("");
     column.heading(&format!("sphere #{i}"), name);
-    let faint = column.sheet().palette.faint();
-    column.row("     position m  velocity m/s", faint);
-    for (axis, x, v) in [("x", x.x, v.x), ("y", x.y, v.y), ("z", x.z, v.z)] {
-        let values = format!("{}  {}", numbers::decimal(x, 12, 6), numbers::decimal(v, 12, 6));
-        let plain = column.sheet().palette.plain();
-        column.pieces(&[(axis, faint), ("  ", plain), (&values, plain)]);
-    }
+    draw_vectors(*x, *v, column);
     let mass = stage.masses.get(i).copied().unwrap_or(f64::NAN);
     column.entry("speed", &numbers::decimal(v.length(), 10, 4), "m/s");
     column.entry("kinetic", &numbers::decimal(0.5 * mass * v.length_squared(), 10, 4), "J");
@@ -101,10 +112,22 @@ fn draw_sphere(screen: &Screen, column: &mut Column) {
     column.skip();
 }
 
+/// Position and velocity side by side, in columns as wide as there is room for.
+fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
+    let (faint, plain) = (column.sheet().palette.faint(), column.sheet().palette.plain());
+    let width = (column.width().saturating_sub(1) / 2).clamp(9, 14);
+    let decimals = (width - 6).min(6);
+    column.row(&format!(" {:>width$}{:>width$}", "position m", "velocity m/s"), faint);
+    for (axis, x, v) in [("x", x.x, v.x), ("y", x.y, v.y), ("z", x.z, v.z)] {
+        let values = numbers::decimal(x, width, decimals) + &numbers::decimal(v, width, decimals);
+        column.pieces(&[(axis, faint), (&values, plain)]);
+    }
+}
+
 /// Energy and tallies of the whole run.
 fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     let tallies = snapshot.tallies;
-    column.heading("run", &format!("frame of {} s", numbers::scientific(snapshot.step, 1)));
+    column.heading("run", &format!("frame of {} s", numbers::short(snapshot.step)));
     column.entry("energy", &numbers::decimal(snapshot.energy, 10, 4), "J");
     let change = (snapshot.energy - snapshot.initial_energy) / snapshot.initial_energy.abs() * 100.0;
     if change.is_finite() {
@@ -122,7 +145,9 @@ fn draw_run(snapshot: &Snapshot, column: &mut Column) {
 fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
     let contacts = &snapshot.contacts;
     column.heading("contacts", &format!("{} in this frame", contacts.len()));
-    let room = (column.rows().saturating_sub(1) / 2).min(contacts.len());
+    draw_legend(column);
+    let search = if snapshot.probes.is_empty() { 1 } else { SEARCH };
+    let room = (column.rows().saturating_sub(search) / 2).min(contacts.len());
     for contact in &contacts[..room] {
         draw_contact(contact, column);
     }
@@ -134,11 +159,24 @@ fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
     }
 }
 
+/// What the two rows of a contact say, in the same columns.
+fn draw_legend(column: &mut Column) {
+    let (faint, arrow) = (column.sheet().palette.faint(), column.sheet().glyphs.arrow);
+    let bodies = column.width().saturating_sub(CLASS + DEGREE);
+    column.row(&format!("{:<bodies$}{:<CLASS$}{:>DEGREE$}", "bodies", "class", "degree"), faint);
+    column.row(&format!("{:>7}{arrow}{:<11}{:>9}", "before", "after m/s", "impulse Ns"), faint);
+}
+
+/// Columns for a contact's class.
+const CLASS: usize = 9;
+/// Columns for its degree.
+const DEGREE: usize = 8;
+
 fn draw_contact(contact: &Contact, column: &mut Column) {
     let (palette, glyphs) = (column.sheet().palette, column.sheet().glyphs);
     let bodies = match contact.kind {
-        Kind::Wall => format!("#{} {} wall {}", contact.a, glyphs.with, contact.b),
-        Kind::Pair => format!("#{} {} #{}", contact.a, glyphs.with, contact.b),
+        Kind::Wall => format!("#{}{}wall {}", contact.a, glyphs.with, contact.b),
+        Kind::Pair => format!("#{}{}#{}", contact.a, glyphs.with, contact.b),
     };
     let (class, style) = match contact.class {
         Class::Collide => ("collides", palette.alarm()),
@@ -146,14 +184,12 @@ fn draw_contact(contact: &Contact, column: &mut Column) {
         Class::Leave => ("leaves", palette.plain()),
         Class::Release => ("released", palette.plain()),
     };
-    let degree = numbers::scientific(contact.degree, 8);
-    let pad = " ".repeat(13_usize.saturating_sub(sheet::width(&bodies)));
-    let class = format!("{class:<8}");
-    column.pieces(&[(&bodies, palette.plain()), (&pad, palette.plain()), (&class, style), (&degree, palette.faint())]);
+    let (faint, plain) = (palette.faint(), palette.plain());
+    let pad = " ".repeat(column.width().saturating_sub(CLASS + DEGREE + sheet::width(&bodies)));
+    let (class, degree) = (format!("{class:<CLASS$}"), numbers::scientific(contact.degree, DEGREE));
+    column.pieces(&[(&bodies, plain), (&pad, plain), (&class, style), (&degree, faint)]);
     let before = numbers::decimal(contact.approach_speed, 7, 3);
     let after = numbers::decimal(contact.separation_speed, 6, 3);
-    let impulse = numbers::decimal(contact.impulse, 7, 2);
-    let speeds = format!("{before}{}{after}", glyphs.arrow);
-    let (faint, plain) = (palette.faint(), palette.plain());
-    column.pieces(&[(&speeds, plain), (" m/s", faint), (&impulse, plain), (" Ns", faint)]);
+    let impulse = numbers::decimal(contact.impulse, 13, 4);
+    column.row(&format!("{before}{}{after}{impulse}", glyphs.arrow), plain);
 }

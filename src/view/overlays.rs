@@ -10,8 +10,8 @@ use super::{
 };
 use crate::snapshot::Class;
 
-/// Length of a contact normal seen from the side, dots: two cells high, whatever the zoom.
-const NORMAL: f64 = 8.0;
+/// Length of a contact normal seen from the side, dots: three cells high, whatever the zoom.
+const NORMAL: f64 = 12.0;
 
 /// Length of an arrow head's barbs, dots; shorter arrows have none.
 const BARB: f64 = 3.0;
@@ -63,8 +63,8 @@ fn draw_normals(view: &mut View, sheet: &Sheet) {
     let ink = Ink::new(Layer::Arrow, sheet.palette.normal());
     for contact in &view.screen.snapshot.contacts {
         let tip = contact.point + contact.normal * (NORMAL / view.camera.scale);
-        let ends = (view.project(contact.point), view.project(tip));
-        shapes::line(&mut view.canvas, ends.0, ends.1, ink);
+        let (foot, tip) = (view.project(contact.point), view.project(tip));
+        draw_arrow(view, foot, tip, ink);
     }
 }
 

@@ -76,10 +76,11 @@ fn fields(screen: &Screen, sheet: &Sheet) -> Vec<Field> {
     let snapshot = screen.snapshot;
     let duration = snapshot.stage.duration.max(snapshot.t);
     let times = sheet.glyphs.times;
-    let reached = screen.pace.reached.map_or("-".into(), |reached| numbers::decimal(reached, 4, 2));
+    let reached = screen.pace.reached.map(|reached| format!("({}{times})", numbers::decimal(reached, 4, 2)));
+    let wanted = format!("{}{times}", numbers::short(screen.pace.wanted));
     vec![
         Field::new("t ", numbers::clock(snapshot.t, duration, snapshot.dt), " s"),
-        Field::new("speed ", format!("{}{times} ({reached:>4}{times})", numbers::short(screen.pace.wanted)), ""),
+        Field::new("speed ", format!("{wanted} {:<7}", reached.unwrap_or_default()), ""),
         Field::new("", snapshot.method.into(), ""),
         Field::new("dt ", numbers::short(snapshot.dt), " s"),
         Field::new("tol ", numbers::short(snapshot.tolerance), ""),

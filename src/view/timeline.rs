@@ -16,8 +16,11 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let faint = sheet.palette.faint();
     let used = sheet.put(area, " 0 ", faint);
     let (_, rest) = split_left(area, used);
-    let right = format!(" {} s  {:>6} impacts ", numbers::short(end), numbers::count(snapshot.tallies.impacts));
-    let columns = (sheet::width(&right) as u16).min(rest.width / 2);
+    let mut right = format!(" {} s ", numbers::short(end));
+    if rest.width >= 50 {
+        right += &format!(" {:>6} impacts ", numbers::count(snapshot.tallies.impacts));
+    }
+    let columns = (sheet::width(&right) as u16).min(rest.width);
     let (track, right_area) = split_right(rest, columns);
     sheet.put(right_area, &right, faint);
     draw_track(screen, end, track, sheet);

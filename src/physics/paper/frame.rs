@@ -1,135 +1,149 @@
-//! One frame: forward by dt, the overlap test, and the search for the collision time.
-//!
-//! The paper's search goes `Backward(h)`, then `Forward(h/2)`. Both apply the same forces, so the state after them is a
-//! function of the frame's start and the time since then alone; it is computed here from the saved start, which is the
-//! same map without the rounding that every undo and redo would leave behind.
+//! One frame: opened, ended by the dt or by the search for the collision time, closed with its responses.
 
 use super::super::log::Log;
 use super::super::model::PairSearch;
-use super::super::{Kind, Model, Probe, State, overlap};
-use super::response::Kicks;
-use super::{Overlap, Paper, Search};
+use super::super::motion::{Flight, with_flight};
+use super::super::overlap::Overlap;
+use super::super::{Model, Probe};
+use super::trial::{Stage, fly};
+use super::{Paper, Search};
 
-/// `Forward(h)`: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit Euler).
-pub(super) fn forward(model: &Model, kicks: &Kicks, start: &State, h: f64, end: &mut State) {
-    for i in 0..start.x.len() {
-        end.v[i] = start.v[i] + model.acceleration(i) * h;
-        end.x[i] = start.x[i] + end.v[i] * h;
-    }
-    for kick in kicks.list() {
-        let i = kick.sphere;
-        let pull = model.acceleration(i) + kick.support;
-        end.v[i] = start.v[i] + pull * h + kick.impulse * model.inverse_masses[i];
-        end.x[i] = start.x[i] + end.v[i] * h;
-    }
-    end.t = start.t + h;
-}
+/// What rounding may add to the degree of a contact that must not sink further.
+const ROUNDING: f64 = 1e-12;
 
 impl Paper {
-    /// Tries one step; whether the frame may end there, and the work that took.
-    pub(super) fn probe(&mut self, model: &Model, log: &mut Log) -> (bool, u64) {
-        let h = match self.trial {
-            Some(h) => h,
+    /// Goes on with the frame in progress, or opens one; the work that took.
+    pub(super) fn go_on(&mut self, model: &Model, log: &mut Log) -> u64 {
+        let step = match self.trial {
+            Some(step) => step,
             None => self.open(),
         };
-        forward(model, &self.kicks, &self.start, h, &mut self.end);
-        let evaluations = self.find(model, Reach::Overlapping);
-        log.tallies.evaluations += evaluations;
-        let done = self.judge(h, log);
-        (done, evaluations + model.len() as u64)
+        let work = self.compute(model, step);
+        if self.stage == Stage::Complete && self.residue == 0.0 {
+            log.tallies.evaluations += self.finder.evaluations;
+            if self.judge(step, log) {
+                self.close(model, log);
+            }
+        }
+        work
     }
 
-    /// Opens a frame: what was the end is the start, what was computed for the next frame acts now.
+    /// Opens a frame: what was the end is the start, and what the last responses gave acts now.
     fn open(&mut self) -> f64 {
-        std::mem::swap(&mut self.start, &mut self.end);
-        std::mem::swap(&mut self.kicks, &mut self.next);
         let limit = self.accepted();
         self.allowed.clear();
-        self.allowed.extend(self.found.iter().filter(|o| o.degree > limit));
+        self.allowed.extend(self.finder.found.iter().filter(|o| o.degree > limit));
+        std::mem::swap(&mut self.start, &mut self.end);
+        std::mem::swap(&mut self.kicks, &mut self.next);
         self.search = Search::Whole;
         self.probes.clear();
-        self.trial = Some(self.settings.dt);
+        self.attempt(self.settings.dt);
         self.settings.dt
     }
 
-    /// The search (`FindRealCollision`): whether the trial step is accepted; if not, the next one is set.
-    fn judge(&mut self, h: f64, log: &mut Log) -> bool {
-        let deepest = self.found.iter().map(|o| o.degree).fold(f64::NEG_INFINITY, f64::max);
-        let too_deep = self.found.iter().any(|o| o.degree > self.limit(o));
+    /// The search (`FindRealCollision`): whether the trial step is accepted; if not, the next one is set out for.
+    fn judge(&mut self, step: f64, log: &mut Log) -> bool {
+        let found = &self.finder.found;
+        let deepest = found.iter().map(|o| o.degree).fold(f64::NEG_INFINITY, f64::max);
+        let too_deep = found.iter().any(|o| o.degree > self.limit(o));
         let (apart, deep) = match (self.search, too_deep) {
             (Search::Whole, false) | (Search::Last, _) => return true,
-            (Search::Whole, true) => (0.0, h),
-            (Search::Between { deep, .. }, false) => (h, deep),
-            (Search::Between { apart, .. }, true) => (apart, h),
+            (Search::Whole, true) => (0.0, step),
+            (Search::Between { deep, .. }, false) => (step, deep),
+            (Search::Between { apart, .. }, true) => (apart, step),
         };
-        self.probes.push(Probe { step: h, degree: deepest });
+        self.probes.push(Probe { step, degree: deepest });
         log.tallies.probes += 1;
         if !too_deep && deepest > 0.0 {
             return true;
         }
         let (t, middle) = (self.start.t, 0.5 * (apart + deep));
-        let exhausted = t + middle == t + apart || t + middle == t + deep;
-        (self.search, self.trial) =
-            if exhausted { (Search::Last, Some(deep)) } else { (Search::Between { apart, deep }, Some(middle)) };
+        if t + middle == t + apart || t + middle == t + deep {
+            self.search = Search::Last;
+            self.attempt(deep);
+        } else {
+            self.search = Search::Between { apart, deep };
+            self.attempt(middle);
+        }
         false
-    }
-
-    /// Closes the frame at the accepted trial step: responses for the next frame, contacts, tallies.
-    pub(super) fn close(&mut self, model: &Model, log: &mut Log) {
-        self.step = self.trial.take().unwrap_or(0.0);
-        std::mem::swap(&mut log.probes, &mut self.probes);
-        log.tallies.frames += 1;
-        let deepest = self.found.iter().map(|o| o.degree).fold(0.0, f64::max);
-        log.tallies.deepest_degree = log.tallies.deepest_degree.max(deepest);
-        self.respond(model, log);
     }
 
     /// How deep an overlap may be at the end of this frame.
     fn limit(&self, overlap: &Overlap) -> f64 {
         let limit = self.accepted();
+        if overlap.degree <= limit {
+            return limit;
+        }
         match self.allowed.binary_search_by_key(&overlap.key, |o| o.key) {
-            Ok(k) => limit.max(self.allowed[k].degree + ROUNDING),
+            Ok(k) => self.allowed[k].degree + ROUNDING,
             Err(_) => limit,
         }
     }
 
-    /// All overlaps of the trial state, sorted; the number of degrees computed.
-    pub(super) fn find(&mut self, model: &Model, reach: Reach) -> u64 {
-        self.found.clear();
-        let (n, x, r) = (model.len(), &self.end.x, &model.radii);
-        let slack =
-            |size: f64, at: f64| if reach == Reach::Touching { overlap::touching(size, at) / size } else { 0.0 };
-        for i in 0..n {
-            for (w, face) in model.faces.iter().enumerate() {
-                let slack = slack(r[i], x[i].abs().max_element().max(face.shape.center.abs().max_element()));
-                let degree = overlap::wall_degree(face, self.start.x[i], x[i], r[i], slack);
-                self.found.extend(degree.map(|degree| Overlap { key: (Kind::Wall, i, w), degree }));
-            }
+    /// Closes the frame at the accepted step: responses for the next frame, contacts, tallies.
+    fn close(&mut self, model: &Model, log: &mut Log) {
+        self.step = self.trial.take().unwrap_or(0.0);
+        std::mem::swap(&mut log.probes, &mut self.probes);
+        let deepest = self.finder.found.iter().map(|o| o.degree).fold(0.0, f64::max);
+        log.tallies.deepest_degree = log.tallies.deepest_degree.max(deepest);
+        log.tallies.frames += 1;
+        self.respond(model, log);
+        self.watch.note(self.end.t - self.start.t, self.step < self.settings.dt, self.settings.dt, log);
+    }
+
+    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`].
+    pub(super) fn is_calm(&self, log: &Log) -> bool {
+        self.finder.found.is_empty() && self.next.list().is_empty() && log.resting.is_empty()
+    }
+
+    /// Whole frames, one after the other, as long as nothing touches; the work that took. The frame in which something
+    /// does is left in progress, its first trial state complete.
+    pub(super) fn cruise(&mut self, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
+        // So many spheres that a frame must be sliced, or that their cells outweigh what is saved here.
+        if model.pairs == PairSearch::Cells {
+            return self.go_on(model, log);
         }
-        let mut evaluations = (n * model.faces.len()) as u64;
-        if model.pairs != PairSearch::None {
-            for a in 0..n {
-                for b in a + 1..n {
-                    let size = r[a] + r[b];
-                    let slack = slack(size, x[a].abs().max_element());
-                    let degree = overlap::pair_degree(x[a], x[b], size, slack);
-                    self.found.extend(degree.map(|degree| Overlap { key: (Kind::Pair, a, b), degree }));
-                }
+        self.kicks.clear();
+        self.allowed.clear();
+        with_flight!(model, flight => self.fly_frames(flight, model, log, goal, work))
+    }
+
+    fn fly_frames<F: Flight>(&mut self, flight: F, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
+        let (dt, n) = (self.settings.dt, model.len());
+        let mut spent = 0;
+        let mut frames = 0;
+        let mut evaluations = 0;
+        let Paper { start, end, finder, .. } = self;
+        let undisturbed = loop {
+            std::mem::swap(start, end);
+            end.t = start.t + dt;
+            finder.begin();
+            self.residue = fly(flight, start, end, 0..n, dt);
+            finder.walls(model, &start.x, &end.x, 0..n);
+            finder.pairs(model, &end.x);
+            spent += n as u64 + finder.evaluations;
+            if !(finder.found.is_empty() && self.residue == 0.0 && end.t > start.t) {
+                break false;
             }
-            evaluations += (n * (n - 1) / 2) as u64;
+            frames += 1;
+            evaluations += finder.evaluations;
+            if end.t >= goal || spent >= work {
+                break true;
+            }
+        };
+        log.tallies.frames += frames;
+        log.tallies.evaluations += evaluations;
+        if frames > 0 {
+            log.contacts.clear();
+            log.probes.clear();
+            self.step = dt;
         }
-        evaluations
+        if !undisturbed {
+            self.search = Search::Whole;
+            self.probes.clear();
+            self.stage = Stage::Complete;
+            self.trial = Some(dt);
+        }
+        spent
     }
 }
-
-/// What counts as a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Reach {
-    /// A gap of at most rounding: at load.
-    Touching,
-    /// A gap of at most 0: in flight.
-    Overlapping,
-}
-
-/// What rounding may add to the depth of a contact that must not sink further.
-const ROUNDING: f64 = 1e-12;

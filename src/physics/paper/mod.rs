@@ -1,14 +1,41 @@
-//! The source paper's method, as printed.
+//! The source paper's method, as printed (source: paper 2.1–2.4).
+//!
+//! A frame is `Forward(dt)`: P += (ΣF_constant + support) h + J, v = P / m, x += v h, with J the impulses of the
+//! contacts met at the end of the frame before. J acts in full however short the frame is, and is cleared with it;
+//! support acts for the frame's real length. Then the overlap test; if something overlaps by more than the tolerance
+//! and the printed slack of 1e-4, the collision time is searched by bisection, and the frame ends there: it has lasted
+//! only t_c, and time is counted truly. All responses of a frame are computed from the same velocities, walls before
+//! pairs, and act during the next.
+//!
+//! Where the printed method cannot run, the smallest fix:
+//! - A resting v_n is kept as printed: the sphere goes on sinking, reaches the tolerance, and the search returns steps
+//!   that shrink for ever. Here a resting v_n becomes 0.
+//! - As printed, a support force cancels the normal component of whatever acts, so that a ceiling would hold a sphere.
+//!   Here it cancels only what presses, and a contact that nothing presses does not rest unless it still approaches.
+//! - The printed degree of a wall uses the distance to its plane, which jumps at edges and has no root there. Here it
+//!   uses the closest point, and knows on which side of the wall the frame began.
+//! - The search stops when no time lies between its ends, and then accepts the later one.
+//! - Tolerances above 0.5 count as 0.5.
+//!
+//! A contact that is already deeper than the tolerance when a frame begins (the tolerance was lowered) may stay as
+//! deep as it is until it separates. All that follows is a function of t, x, v, the pending impulses and the settings,
+//! so that a run can be continued from those, bit for bit.
 
 mod frame;
 mod response;
+mod trial;
+mod watch;
 
 use std::borrow::Cow;
 
-use super::log::{Key, Log};
-use super::{Class, Description, Engine, Method, Model, Probe, Progress, Settings, Stall, State, Until};
-use frame::Reach;
+use glam::DVec3;
+
+use super::log::Log;
+use super::overlap::{Finder, Overlap};
+use super::{Description, Engine, Method, Model, Probe, Progress, Settings, State, Until};
 use response::Kicks;
+use trial::Stage;
+use watch::Watch;
 
 /// Accepted beyond the tolerance, dimensionless, as the paper prints it.
 const SLACK: f64 = 1e-4;
@@ -19,21 +46,14 @@ const LARGEST_TOLERANCE: f64 = 0.5;
 /// What `paper` is.
 pub(super) const DESCRIPTION: Description = Description {
     method: Method::Paper,
-    summary: "The source paper's method as printed: Euler frames, an overlap test at their end, recursive bisection \
-              of the first collision, responses as forces over the next frame.",
-    order: "First order in dt: position error g·t·dt/2 per free flight, energy lost g²·dt/2 W per kg.",
-    source: "\"Rigid Body Simulation\", Assignment 5, Yang Hongdi.",
-    knobs: "dt: the error; tolerance: how deep an overlap is accepted (1e-4 more than it says), irrelevant below 10 dt.",
-    avoid: "Fast spheres (they tunnel once v·dt exceeds 2r), spheres at rest in wedges or stacks (it stalls), long runs \
-            that must keep their energy.",
+    summary: "the source paper as printed: Euler frames, an overlap test at their end, bisection of the first \
+              collision, responses as forces over the next frame",
+    order: "first in dt: position error g·t·dt/2 per free flight, energy lost g²·dt/2 watts per kilogram in flight",
+    source: "\"Rigid Body Simulation\", Assignment 5, Yang Hongdi",
+    knobs: "dt sets the error; tolerance is the overlap accepted (1e-4 more than it says), irrelevant below 10 dt",
+    avoid: "for fast spheres (they tunnel once v·dt exceeds 2r), for rest in wedges and stacks (it stalls), and where \
+            energy must last",
 };
-
-/// A body pair that overlaps in a trial state, and how deep.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Overlap {
-    key: Key,
-    degree: f64,
-}
 
 /// How far the search for the collision time has come; steps count from the frame's start, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,40 +74,26 @@ pub(super) struct Paper {
     start: State,
     /// Where the trial step ends; between frames: the end of the last frame.
     end: State,
-    /// What acts on single spheres during the frame that leads from `start` to `end`.
+    /// What acts on single spheres in the frame from `start` to `end`, beside what always does.
     kicks: Kicks,
-    /// What will act during the next frame.
+    /// What will act in the next frame; while a frame is in progress, what acted in the one before.
     next: Kicks,
-    /// Overlaps of the trial state, sorted.
-    found: Vec<Overlap>,
-    /// Contacts that began the frame deeper than the tolerance (it was lowered), with the depth allowed to each.
+    /// Overlaps of the trial state.
+    finder: Finder,
+    /// Contacts that began the frame deeper than is accepted, and how deep.
     allowed: Vec<Overlap>,
-    /// Contacts that rest.
-    resting: Vec<Key>,
-    /// The step being tried, s, if a frame is in progress.
+    /// The step being tried, s; none between frames.
     trial: Option<f64>,
+    /// How much of the trial state has been computed.
+    stage: Stage,
+    /// 0 as long as every position of the trial state is finite.
+    residue: f64,
     search: Search,
     /// Trial steps of the frame in progress.
     probes: Vec<Probe>,
+    /// Length of the last frame, s.
     step: f64,
     watch: Watch,
-}
-
-/// The watchdog's memory.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Watch {
-    /// When the present count began, s.
-    since: f64,
-    /// Frames cut short by a search since then.
-    cut: u64,
-    /// Time they should have brought at least, s.
-    owed: f64,
-}
-
-impl Watch {
-    fn at(time: f64) -> Watch {
-        Watch { since: time, cut: 0, owed: 0.0 }
-    }
 }
 
 impl Engine for Paper {
@@ -99,62 +105,55 @@ impl Engine for Paper {
             start: state,
             kicks: Kicks::none(model.len()),
             next: Kicks::none(model.len()),
-            found: Vec::new(),
+            finder: Finder::new(model),
             allowed: Vec::new(),
-            resting: Vec::new(),
             trial: None,
+            stage: Stage::Complete,
+            residue: 0.0,
             search: Search::Whole,
             probes: Vec::new(),
             step: 0.0,
         };
-        let evaluations = paper.find(model, if paper.end.t == 0.0 { Reach::Touching } else { Reach::Overlapping });
-        log.tallies.evaluations += evaluations;
+        log.tallies.evaluations += paper.finder.all(model, &paper.end.x, paper.end.t == 0.0);
         paper.respond(model, log);
         paper
     }
 
     fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
-        if let Until::Time(t) = until
-            && self.time() >= t
-        {
-            return Progress::Reached;
-        }
+        let goal = match until {
+            Until::Frame => f64::NEG_INFINITY,
+            Until::Time(t) if self.time() >= t => return Progress::Reached,
+            Until::Time(t) => t,
+        };
         let mut spent = 0;
         while spent < work {
-            let (accepted, cost) = self.probe(model, log);
-            spent += cost;
-            if !accepted {
-                continue;
+            if self.trial.is_none() && self.is_calm(log) {
+                spent += self.cruise(model, log, goal, work - spent);
+            } else {
+                spent += self.go_on(model, log);
             }
-            self.close(model, log);
-            if let Some(stall) = self.quarantine().or_else(|| self.watch(log, model)) {
+            if let Some(stall) = self.guard(model, log) {
                 return Progress::Stalled(stall);
             }
-            match until {
-                Until::Time(t) if self.end.t < t => {}
-                _ => return Progress::Reached,
+            if self.trial.is_none() && (self.end.t >= goal || until == Until::Frame) {
+                return Progress::Reached;
             }
         }
         Progress::Yielded
     }
 
-    fn retune(&mut self, settings: Settings) {
+    fn retune(&mut self, model: &Model, settings: Settings) {
+        self.give_up(model);
         self.settings = settings;
-        if self.trial.take().is_some() {
-            std::mem::swap(&mut self.start, &mut self.end);
-            std::mem::swap(&mut self.kicks, &mut self.next);
-            self.start.clone_from(&self.end);
-            self.step = 0.0;
-        }
         self.watch = Watch::at(self.end.t);
     }
 
     fn state(&self, _: &Model) -> Cow<'_, State> {
-        Cow::Borrowed(self.current())
+        Cow::Borrowed(if self.trial.is_some() { &self.start } else { &self.end })
     }
 
     fn time(&self) -> f64 {
-        self.current().t
+        if self.trial.is_some() { self.start.t } else { self.end.t }
     }
 
     fn step(&self) -> f64 {
@@ -162,21 +161,33 @@ impl Engine for Paper {
     }
 
     fn at(&self, model: &Model, t: f64) -> State {
+        // The start of the last frame is gone as soon as the next is in progress.
         if self.trial.is_some() || t >= self.end.t {
-            return self.current().clone();
+            return self.state(model).into_owned();
         }
         let mut state = self.start.clone();
-        if t > self.start.t {
-            frame::forward(model, &self.kicks, &self.start, t - self.start.t, &mut state);
+        if t > state.t {
+            trial::forward(model, &self.kicks, &self.start, &mut state, t - self.start.t);
             state.t = t;
         }
         state
     }
 
-    fn hand_over(self, model: &Model) -> State {
-        let owed = if self.trial.is_some() { &self.kicks } else { &self.next };
-        let mut state = self.current().clone();
-        for kick in owed.list() {
+    fn transient(&self, model: &Model) -> Vec<DVec3> {
+        let mut impulses = vec![DVec3::ZERO; model.len()];
+        for kick in self.pending().list() {
+            impulses[kick.sphere] = kick.impulse;
+        }
+        impulses
+    }
+
+    fn continue_with(&mut self, transient: &[DVec3]) {
+        self.next.replace_impulses(transient);
+    }
+
+    fn hand_over(&self, model: &Model) -> State {
+        let mut state = self.state(model).into_owned();
+        for kick in self.pending().list() {
             state.v[kick.sphere] += kick.impulse * model.inverse_masses[kick.sphere];
         }
         state
@@ -184,63 +195,22 @@ impl Engine for Paper {
 }
 
 impl Paper {
-    /// The state at the end of the last frame.
-    fn current(&self) -> &State {
-        if self.trial.is_some() { &self.start } else { &self.end }
-    }
-
     /// The largest degree a frame may end with, for contacts without an allowance of their own.
     fn accepted(&self) -> f64 {
         self.settings.tolerance.min(LARGEST_TOLERANCE) + SLACK
     }
 
-    /// The one place where a state that is no longer finite is caught.
-    fn quarantine(&self) -> Option<Stall> {
-        let State { t, x, v } = &self.end;
-        let lost = (0..x.len()).find(|&i| !(x[i].is_finite() && v[i].is_finite()))?;
-        let reason = format!(
-            "At t = {t} s sphere {lost} has left the range of numbers: x = {}, v = {}; its speed or the step of {} s is \
-             too large.",
-            x[lost], v[lost], self.step,
-        );
-        Some(Stall { time: *t, kind: "not-finite", reason })
+    /// What follows the end of the last frame.
+    fn pending(&self) -> &Kicks {
+        if self.trial.is_some() { &self.kicks } else { &self.next }
     }
 
-    /// Ends the run if frames cut short have brought too little time: the watchdog.
-    fn watch(&mut self, log: &Log, model: &Model) -> Option<Stall> {
-        if self.step < self.settings.dt {
-            let struck = log.contacts.iter().any(|c| c.class == Class::Collide);
-            self.watch.cut += 1;
-            self.watch.owed += self.settings.dt * if struck { STRUCK_PACE } else { QUIET_PACE };
-        }
-        if self.watch.cut < PATIENCE + model.len() as u64 {
-            return None;
-        }
-        let stalled = self.end.t - self.watch.since < self.watch.owed;
-        self.watch = Watch::at(self.end.t);
-        stalled.then(|| self.stall(log))
-    }
-
-    fn stall(&self, log: &Log) -> Stall {
-        let bodies: Vec<String> = log.contacts.iter().map(response::names).collect();
-        Stall {
-            time: self.end.t,
-            kind: "resting-contact",
-            reason: format!(
-                "At t = {} s the frames have become so short that time stands still: {} ask for more support than \
-                 contact by contact can give, as in a wedge or a stack; change the method from here.",
-                self.end.t,
-                bodies.join(", "),
-            ),
+    /// Gives up the frame in progress: the last one's end stands as it was, with what is to act next.
+    fn give_up(&mut self, model: &Model) {
+        if self.trial.take().is_some() {
+            std::mem::swap(&mut self.kicks, &mut self.next);
+            self.end.clone_from(&self.start);
+            self.finder.all(model, &self.end.x, false);
         }
     }
 }
-
-/// Frames cut short, beside one per sphere, after which the watchdog compares.
-const PATIENCE: u64 = 1000;
-
-/// Least mean progress, in units of dt, of frames cut short with an impact: a gas of a million spheres makes 1e-4.
-const STRUCK_PACE: f64 = 1e-6;
-
-/// Least mean progress, in units of dt, of frames cut short without any impact: a landing needs a few tens of frames.
-const QUIET_PACE: f64 = 1e-2;

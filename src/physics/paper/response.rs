@@ -1,10 +1,14 @@
 //! The response: transient impulses and support forces for the next frame (source: paper 2.4).
 
+use std::ops::Range;
+
 use glam::DVec3;
 
-use super::super::log::{Key, Log, key};
-use super::super::{Class, Contact, Kind, Model, motion, overlap};
-use super::{Overlap, Paper};
+use super::super::contact::Key;
+use super::super::log::Log;
+use super::super::overlap::{self, Overlap};
+use super::super::{Class, Contact, Kind, Model, motion};
+use super::Paper;
 
 /// What acts on one sphere during one frame, beside what always does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,11 +24,13 @@ pub(super) struct Kick {
 /// The kicks of a frame, at most one per sphere.
 #[derive(Debug, Clone)]
 pub(super) struct Kicks {
+    /// Sorted by sphere once the responses are complete.
     list: Vec<Kick>,
-    /// Place in the list, by sphere; `NOWHERE` without a kick.
+    /// Place in the list by sphere while it is filled; [`NOWHERE`] without a kick.
     place: Vec<u32>,
 }
 
+/// More than the million spheres a scene may have.
 const NOWHERE: u32 = u32::MAX;
 
 impl Kicks {
@@ -36,27 +42,48 @@ impl Kicks {
         &self.list
     }
 
+    /// Those of a range of spheres.
+    pub(super) fn of_spheres(&self, range: &Range<usize>) -> &[Kick] {
+        let before = |sphere: usize| self.list.partition_point(|k| k.sphere < sphere);
+        &self.list[before(range.start)..before(range.end)]
+    }
+
     pub(super) fn clear(&mut self) {
-        for kick in self.list.drain(..) {
-            self.place[kick.sphere] = NOWHERE;
-        }
+        self.list.clear();
+    }
+
+    /// Takes these impulses, N s by sphere, instead of its own.
+    pub(super) fn replace_impulses(&mut self, impulses: &[DVec3]) {
+        let support = |kicks: &Kicks, i: usize| kicks.of_spheres(&(i..i + 1)).first().map(|k| k.support);
+        let kicks = impulses.iter().enumerate().filter_map(|(sphere, &impulse)| {
+            let support = support(self, sphere);
+            let needed = support.is_some() || impulse != DVec3::ZERO;
+            needed.then(|| Kick { sphere, impulse, support: support.unwrap_or(DVec3::ZERO) })
+        });
+        self.list = kicks.collect();
     }
 
     fn of(&mut self, sphere: usize) -> &mut Kick {
-        if self.place[sphere] == NOWHERE {
+        let known = self.place[sphere] as usize;
+        if self.list.get(known).is_none_or(|k| k.sphere != sphere) {
             self.place[sphere] = self.list.len() as u32;
             self.list.push(Kick { sphere, impulse: DVec3::ZERO, support: DVec3::ZERO });
         }
         &mut self.list[self.place[sphere] as usize]
     }
+
+    fn sort(&mut self) {
+        self.list.sort_unstable_by_key(|k| k.sphere);
+    }
 }
 
-/// "sphere 0 and wall 6", for sentences.
-pub(super) fn names(contact: &Contact) -> String {
-    match contact.kind {
-        Kind::Wall => format!("sphere {} and wall {}", contact.a, contact.b),
-        Kind::Pair => format!("spheres {} and {}", contact.a, contact.b),
-    }
+/// A contact as the law sees it.
+struct Meeting {
+    at: Key,
+    touch: overlap::Touch,
+    v_n: f64,
+    /// What presses the first and the second sphere against the contact, m/s².
+    press: [f64; 2],
 }
 
 impl Paper {
@@ -64,102 +91,69 @@ impl Paper {
     pub(super) fn respond(&mut self, model: &Model, log: &mut Log) {
         self.next.clear();
         log.contacts.clear();
-        for k in 0..self.found.len() {
-            let Some(contact) = self.answer(model, self.found[k]) else { continue };
-            if contact.class == Class::Collide {
-                log.event(contact);
+        for k in 0..self.finder.found.len() {
+            let Overlap { key, degree } = self.finder.found[k];
+            let meeting = self.meeting(model, key);
+            let class = class(model, &meeting);
+            // A gap of exactly 0 is a contact in flight only as long as it rests; at load it is one.
+            if degree > 0.0 || self.end.t == 0.0 || class == Class::Rest {
+                let impulse = self.answer(model, &meeting, class);
+                let contact = self.row(model, &meeting, class, impulse);
+                if class == Class::Collide {
+                    log.event(contact);
+                }
+                log.contacts.push(contact);
             }
-            log.contacts.push(contact);
         }
-        self.update_rests(model, log);
+        self.next.sort();
+        log.follow_rests(|key| self.row(model, &self.meeting(model, key), Class::Release, 0.0));
     }
 
-    fn touch(&self, model: &Model, (kind, a, b): Key) -> overlap::Touch {
-        let x = &self.end.x;
-        match kind {
-            Kind::Wall => overlap::wall_touch(&model.faces[b], self.start.x[a], x[a], model.radii[a]),
-            Kind::Pair => overlap::pair_touch(x[a], x[b], model.radii[b], model.radii[a] + model.radii[b]),
-        }
-    }
-
-    /// What the printed law makes of one contact: 0 < v_n ≤ rest_speed rests too, if something presses.
-    /// A gap of exactly 0 is a contact in flight only as long as it rests (nothing overlaps; at load it is one).
-    fn answer(&mut self, model: &Model, Overlap { key: at, degree }: Overlap) -> Option<Contact> {
+    fn meeting(&self, model: &Model, at: Key) -> Meeting {
         let (kind, a, b) = at;
-        let touch = self.touch(model, at);
+        let touch = overlap::touch(model, &self.start.x, &self.end.x, at);
         let n = touch.normal;
-        let v_b = if kind == Kind::Pair { self.end.v[b] } else { DVec3::ZERO };
+        let (v_b, press_b) = match kind {
+            Kind::Wall => (DVec3::ZERO, 0.0),
+            Kind::Pair => (self.end.v[b], model.acceleration(b).dot(n).max(0.0)),
+        };
         let v_n = motion::normal_velocity(self.end.v[a], v_b, n);
-        let press_a = (-model.acceleration(a).dot(n)).max(0.0);
-        let press_b = if kind == Kind::Pair { model.acceleration(b).dot(n).max(0.0) } else { 0.0 };
-        let pressed = press_a > 0.0 || press_b > 0.0;
-        let mut class = motion::classify(v_n, pressed, &model.law);
-        if class == Class::Leave && pressed && v_n <= model.law.rest_speed {
-            class = Class::Rest;
+        Meeting { at, touch, v_n, press: [(-model.acceleration(a).dot(n)).max(0.0), press_b] }
+    }
+
+    /// Adds the response to what acts in the next frame; the impulse along the normal, N s: at rest what stops the
+    /// approach and what the support force would give over the frame that ended here.
+    fn answer(&mut self, model: &Model, meeting: &Meeting, class: Class) -> f64 {
+        let Meeting { at: (kind, a, b), touch, v_n, press } = meeting;
+        let (a, b, n) = (*a, *b, touch.normal);
+        if class == Class::Leave {
+            return 0.0;
         }
-        if degree <= 0.0 && self.end.t > 0.0 && class != Class::Rest {
-            return None;
-        }
-        let mut impulse = match kind {
-            _ if class == Class::Leave => 0.0,
+        let along = match kind {
             Kind::Wall => {
-                let j = motion::wall_impulse(model, a, self.end.v[a], n, v_n, class);
-                self.next.of(a).impulse += j;
-                j.dot(n)
+                let impulse = motion::wall_impulse(model, a, self.end.v[a], n, *v_n, class);
+                self.next.of(a).impulse += impulse;
+                impulse.dot(n)
             }
             Kind::Pair => {
-                let j = motion::pair_impulse(model, a, b, v_n, class);
-                self.next.of(a).impulse += n * j;
-                self.next.of(b).impulse -= n * j;
-                j
+                let impulse = motion::pair_impulse(model, a, b, *v_n, class);
+                self.next.of(a).impulse += n * impulse;
+                self.next.of(b).impulse -= n * impulse;
+                impulse
             }
         };
-        if class == Class::Rest {
-            self.next.of(a).support += n * press_a;
-            if kind == Kind::Pair {
-                self.next.of(b).support -= n * press_b;
-            }
-            impulse += press_a * model.masses[a] * self.step;
+        if class == Class::Collide {
+            return along;
         }
-        Some(Contact {
-            time: self.end.t,
-            kind,
-            a,
-            b,
-            point: touch.point,
-            normal: n,
-            approach_speed: -v_n,
-            separation_speed: motion::separation_speed(v_n, class, kind, &model.law),
-            impulse,
-            degree: touch.degree,
-            class,
-        })
+        self.next.of(a).support += n * press[0];
+        if *kind == Kind::Pair {
+            self.next.of(b).support -= n * press[1];
+        }
+        along + press[0] * model.masses[a] * self.step
     }
 
-    /// One `rest` row when a contact begins to rest, one `release` row when it ends.
-    fn update_rests(&mut self, model: &Model, log: &mut Log) {
-        let now: Vec<Key> = log.contacts.iter().filter(|c| c.class == Class::Rest).map(key).collect();
-        if now == self.resting {
-            return;
-        }
-        for k in 0..log.contacts.len() {
-            let contact = log.contacts[k];
-            if contact.class == Class::Rest && self.resting.binary_search(&key(&contact)).is_err() {
-                log.event(contact);
-            }
-        }
-        for &gone in self.resting.iter().filter(|k| now.binary_search(k).is_err()) {
-            log.event(self.release(model, gone));
-        }
-        self.resting = now;
-    }
-
-    /// The row of a contact whose rest has ended.
-    fn release(&self, model: &Model, at: Key) -> Contact {
-        let (kind, a, b) = at;
-        let touch = self.touch(model, at);
-        let v_b = if kind == Kind::Pair { self.end.v[b] } else { DVec3::ZERO };
-        let v_n = motion::normal_velocity(self.end.v[a], v_b, touch.normal);
+    fn row(&self, model: &Model, meeting: &Meeting, class: Class, impulse: f64) -> Contact {
+        let Meeting { at: (kind, a, b), touch, v_n, .. } = *meeting;
         Contact {
             time: self.end.t,
             kind,
@@ -168,10 +162,19 @@ impl Paper {
             point: touch.point,
             normal: touch.normal,
             approach_speed: -v_n,
-            separation_speed: v_n,
-            impulse: 0.0,
+            separation_speed: motion::separation_speed(v_n, class, kind, &model.law),
+            impulse,
             degree: touch.degree,
-            class: Class::Release,
+            class,
         }
+    }
+}
+
+/// What the printed law makes of a contact: 0 < v_n ≤ rest_speed rests too, if something presses.
+fn class(model: &Model, meeting: &Meeting) -> Class {
+    let pressed = meeting.press != [0.0; 2];
+    match motion::classify(meeting.v_n, pressed, &model.law) {
+        Class::Leave if pressed && meeting.v_n <= model.law.rest_speed => Class::Rest,
+        class => class,
     }
 }

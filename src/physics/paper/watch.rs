@@ -1,0 +1,109 @@
+//! What ends a run that cannot go on: a state that is no longer finite, and time that stands still.
+
+use super::super::log::Log;
+use super::super::{Class, Contact, Kind, Model, Stall, State};
+use super::Paper;
+
+/// Frames cut short, beside one per sphere, after which the watchdog compares.
+const PATIENCE: u64 = 1000;
+
+/// Least mean progress, in units of dt, of frames cut short with an impact: a gas of a million spheres makes 1e-4.
+const STRUCK_PACE: f64 = 1e-6;
+
+/// Least mean progress, in units of dt, of frames cut short without any impact: a landing needs a few tens of frames.
+const QUIET_PACE: f64 = 1e-2;
+
+/// Contacts named in the sentence of a stall.
+const NAMED: usize = 6;
+
+/// The watchdog's memory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Watch {
+    /// When the present count began, s.
+    since: f64,
+    /// Frames cut short by a search since then.
+    cut: u64,
+    /// Time they should have brought at least, s.
+    owed: f64,
+    /// Whether a frame brought no time at all.
+    stuck: bool,
+}
+
+impl Watch {
+    /// Nothing counted yet at this time, s.
+    pub(super) fn at(time: f64) -> Watch {
+        Watch { since: time, cut: 0, owed: 0.0, stuck: false }
+    }
+
+    /// Counts a frame that brought this much time, s, and was or was not cut short by a search.
+    pub(super) fn note(&mut self, elapsed: f64, cut: bool, dt: f64, log: &Log) {
+        self.stuck |= elapsed <= 0.0;
+        if cut {
+            let struck = log.contacts.iter().any(|c| c.class == Class::Collide);
+            self.cut += 1;
+            self.owed += dt * if struck { STRUCK_PACE } else { QUIET_PACE };
+        }
+    }
+}
+
+impl Paper {
+    /// Whether and why the run cannot go on.
+    pub(super) fn guard(&mut self, model: &Model, log: &Log) -> Option<Stall> {
+        if self.residue != 0.0 {
+            return self.quarantine(model);
+        }
+        if self.watch.stuck {
+            self.watch = Watch::at(self.end.t);
+            return Some(self.standstill());
+        }
+        if self.trial.is_none() && self.watch.cut >= PATIENCE + model.len() as u64 {
+            let stalled = self.end.t - self.watch.since < self.watch.owed;
+            self.watch = Watch::at(self.end.t);
+            return stalled.then(|| self.resting_stall(log));
+        }
+        None
+    }
+
+    fn standstill(&self) -> Stall {
+        let (time, dt) = (self.end.t, self.settings.dt);
+        let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
+        Stall { time, kind: "step-too-small", reason }
+    }
+
+    /// The one place where a state that is no longer finite is caught. The frame is given up, so that nobody sees it.
+    fn quarantine(&mut self, model: &Model) -> Option<Stall> {
+        self.residue = 0.0;
+        let State { x, v, .. } = &self.end;
+        let lost = (0..x.len()).find(|&i| !(x[i].is_finite() && v[i].is_finite()))?;
+        let (t, dt) = (self.start.t, self.settings.dt);
+        let reason = format!(
+            "Sphere {lost} leaves the range of numbers in the frame after t = {t} s, from x = {} m, v = {} m/s with a \
+             step of {dt} s; begin with smaller speeds or take a smaller dt.",
+            self.start.x[lost], self.start.v[lost],
+        );
+        self.give_up(model);
+        Some(Stall { time: t, kind: "not-finite", reason })
+    }
+
+    fn resting_stall(&self, log: &Log) -> Stall {
+        let mut bodies: Vec<String> = log.contacts.iter().take(NAMED).map(names).collect();
+        if log.contacts.len() > NAMED {
+            bodies.push(format!("{} more", log.contacts.len() - NAMED));
+        }
+        let time = self.end.t;
+        let reason = format!(
+            "From t = {time} s on the frames of method paper shrink without end, because support given contact by \
+             contact cannot hold a wedge or a stack (in contact: {}); change the method from here.",
+            bodies.join(", "),
+        );
+        Stall { time, kind: "resting-contact", reason }
+    }
+}
+
+/// "sphere 0 and wall 6".
+fn names(contact: &Contact) -> String {
+    match contact.kind {
+        Kind::Wall => format!("sphere {} and wall {}", contact.a, contact.b),
+        Kind::Pair => format!("spheres {} and {}", contact.a, contact.b),
+    }
+}

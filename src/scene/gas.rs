@@ -1,0 +1,313 @@
+//! `Gas`: spheres strewn at random, disjoint from each other, from all walls and from the spheres listed before.
+//!
+//! First by random insertion: a uniformly drawn centre is kept if it is free. That gives the unbiased gas, but near a
+//! packing fraction of 0.3 a free place is hardly ever drawn. When the draws are spent, everything is taken back and
+//! strewn over a lattice instead: sites drawn without return, each sphere shifted at random within its own cell. That
+//! reaches 0.5. The work is bounded either way, and the outcome depends on nothing but the scene.
+
+use glam::DVec3;
+
+use super::Sphere;
+use super::generate::SplitMix64;
+use crate::geometry::{Bounds, Parallelogram};
+
+/// Draws per sphere, on average, before random insertion is given up.
+const DRAWS: usize = 60;
+/// Shifts tried in one cell of the lattice before it is left empty.
+const SHIFTS: usize = 8;
+/// Cells a lattice may have per sphere wanted.
+const MOST_SITES: usize = 16;
+/// Overlap that counts as touching, in radii: far below what the rules allow.
+const TOUCH: f64 = 1e-12;
+/// No spheres of one size fill more of space than this (Kepler's conjecture: π / √18).
+const DENSEST: f64 = 0.740_480_489_693_061;
+/// The share of a cell of a cubic lattice that its sphere fills, π / 6.
+const SPHERE_IN_CUBE: f64 = 0.523_598_775_598_298_9;
+
+/// What a gas must keep clear of.
+#[derive(Debug)]
+pub(super) struct Obstacles<'a> {
+    pub(super) walls: &'a [Parallelogram],
+    pub(super) spheres: &'a [Sphere],
+}
+
+/// Centres (m) of `count` spheres of radius `r` (m) whose surfaces stay within `bounds` (m).
+///
+/// # Errors
+/// A sentence if they do not fit.
+pub(super) fn strewn(
+    bounds: Bounds,
+    count: usize,
+    r: f64,
+    obstacles: &Obstacles,
+    draw: &mut SplitMix64,
+) -> Result<Vec<DVec3>, String> {
+    let inner = bounds.grown(-r);
+    let size = bounds.size();
+    let fraction = count as f64 * SPHERE_IN_CUBE * (2.0 * r / size.x) * (2.0 * r / size.y) * (2.0 * r / size.z);
+    if inner.size().min_element() < 0.0 || fraction > DENSEST {
+        return Err(too_many(count, 0, fraction));
+    }
+    let field = Field::new(bounds, count, r, obstacles);
+    if let Some(centers) = inserted(&field, inner, count, draw) {
+        return Ok(centers);
+    }
+    latticed(&field, bounds, count, draw).map_err(|placed| too_many(count, placed, fraction))
+}
+
+fn too_many(count: usize, placed: usize, fraction: f64) -> String {
+    let share = super::error::show_rounded(fraction);
+    format!(
+        "{count} spheres do not fit, {placed} found a place: they would fill {share} of the box, walls aside; \
+         allowed are fewer, smaller spheres, or a larger box (up to about 0.3 fits)"
+    )
+}
+
+/// Random insertion; none if the draws run out.
+fn inserted(field: &Field, inner: Bounds, count: usize, draw: &mut SplitMix64) -> Option<Vec<DVec3>> {
+    let mut gas = Placed::new(field, count);
+    for _ in 0..count.saturating_mul(DRAWS) + 1000 {
+        let center = inner.min + inner.size() * draw.units();
+        if field.is_free(center) && gas.is_free(center) {
+            gas.place(center);
+        }
+        if gas.centers.len() == count {
+            return Some(gas.centers);
+        }
+    }
+    None
+}
+
+/// Strewn over lattices, from the widest that has a cell for each to the tightest; the error is the most that fitted.
+fn latticed(field: &Field, bounds: Bounds, count: usize, draw: &mut SplitMix64) -> Result<Vec<DVec3>, usize> {
+    let volume_per_sphere = bounds.size() / (count as f64);
+    let mut spacing = cube_root(volume_per_sphere.x * bounds.size().y * bounds.size().z).max(2.0 * field.r);
+    let mut most = 0;
+    loop {
+        let counts = (bounds.size() / spacing).max(DVec3::ONE).floor();
+        if counts.element_product() > (count * MOST_SITES) as f64 {
+            return Err(most);
+        }
+        let centers = on_lattice(field, bounds, counts, count, draw);
+        if centers.len() == count {
+            return Ok(centers);
+        }
+        most = most.max(centers.len());
+        if spacing <= 2.0 * field.r {
+            return Err(most);
+        }
+        // 3 % tighter each time: from the widest to the tightest in a few dozen rounds.
+        spacing = (spacing * 0.97).max(2.0 * field.r);
+    }
+}
+
+/// Up to `count` centres in the cells of one lattice, the cells in random order.
+fn on_lattice(field: &Field, bounds: Bounds, counts: DVec3, count: usize, draw: &mut SplitMix64) -> Vec<DVec3> {
+    let cell = bounds.size() / counts;
+    // Rounding may leave the tightest cell a little too tight; the spheres then touch, which is no overlap.
+    let slack = (cell - DVec3::splat(2.0 * field.r)).max(DVec3::ZERO);
+    let [_, ny, nz] = counts.to_array().map(|n| n as usize);
+    let mut sites: Vec<usize> = (0..counts.element_product() as usize).collect();
+    let mut centers = Vec::with_capacity(count);
+    for i in 0..sites.len() {
+        let chosen = i + draw.below(sites.len() - i);
+        sites.swap(i, chosen);
+        let site = sites[i];
+        let index = DVec3::new((site / (ny * nz)) as f64, (site / nz % ny) as f64, (site % nz) as f64);
+        let corner = bounds.min + cell * index + DVec3::splat(field.r);
+        let free = (0..SHIFTS).map(|_| corner + slack * draw.units()).find(|&center| field.is_free(center));
+        centers.extend(free);
+        if centers.len() == count {
+            break;
+        }
+    }
+    centers
+}
+
+/// The cube root, by Newton's steps from above: `cbrt` is not the same on every machine.
+fn cube_root(value: f64) -> f64 {
+    let mut root = value.max(1.0);
+    loop {
+        let next = (2.0 * root + value / (root * root)) / 3.0;
+        if next >= root {
+            return root;
+        }
+        root = next;
+    }
+}
+
+/// The box in cells, with the obstacles that reach into each.
+struct Field<'a> {
+    bounds: Bounds,
+    r: f64,
+    cell: f64,
+    counts: [usize; 3],
+    obstacles: &'a Obstacles<'a>,
+    /// Per cell: walls first, spheres after them.
+    reaching: Vec<Vec<u32>>,
+}
+
+impl<'a> Field<'a> {
+    fn new(bounds: Bounds, count: usize, r: f64, obstacles: &'a Obstacles<'a>) -> Field<'a> {
+        let (cell, counts) = cells(bounds, count, r);
+        let reaching = vec![Vec::new(); counts.iter().product()];
+        let mut field = Field { bounds, r, cell, counts, obstacles, reaching };
+        let walls = obstacles.walls.iter().map(Parallelogram::bounds);
+        let spheres = obstacles.spheres.iter().map(|sphere| Bounds::around(sphere.x, sphere.radius));
+        for (index, body) in walls.chain(spheres).enumerate() {
+            let reach = body.grown(r);
+            if reach.touches(&bounds) {
+                for cell in field.cells_of(reach) {
+                    field.reaching[cell].push(index as u32);
+                }
+            }
+        }
+        field
+    }
+
+    fn coordinates(&self, p: DVec3) -> [usize; 3] {
+        let scaled = ((p - self.bounds.min) / self.cell).to_array();
+        [0, 1, 2].map(|axis| (scaled[axis].max(0.0) as usize).min(self.counts[axis] - 1))
+    }
+
+    fn cell_of(&self, p: DVec3) -> usize {
+        let [i, j, k] = self.coordinates(p);
+        (i * self.counts[1] + j) * self.counts[2] + k
+    }
+
+    /// The cells that a box reaches into.
+    fn cells_of(&self, reach: Bounds) -> impl Iterator<Item = usize> + use<> {
+        let (low, high) = (self.coordinates(reach.min), self.coordinates(reach.max));
+        let [_, ny, nz] = self.counts;
+        let rows = (low[0]..=high[0]).flat_map(move |i| (low[1]..=high[1]).map(move |j| (i * ny + j) * nz));
+        rows.flat_map(move |row| row + low[2]..=row + high[2])
+    }
+
+    /// Whether a sphere there is clear of every wall and of the spheres listed before.
+    fn is_free(&self, center: DVec3) -> bool {
+        let walls = self.obstacles.walls;
+        // A box as thin as the spheres leaves only places that touch: rounding must not close them.
+        let r = self.r * (1.0 - TOUCH);
+        self.reaching[self.cell_of(center)].iter().all(|&index| match walls.get(index as usize) {
+            Some(wall) => wall.distance(center) >= r,
+            None => {
+                let sphere = &self.obstacles.spheres[index as usize - walls.len()];
+                sphere.x.distance(center) >= r + sphere.radius
+            }
+        })
+    }
+}
+
+/// Edge (m) and numbers of cubic cells: at least a diameter wide, and not many more than spheres.
+fn cells(bounds: Bounds, count: usize, r: f64) -> (f64, [usize; 3]) {
+    let mut edge = 2.0 * r;
+    loop {
+        let counts = (bounds.size() / edge).floor().max(DVec3::ONE);
+        if counts.element_product() <= (2 * count + 64) as f64 {
+            return (edge, counts.to_array().map(|n| n as usize));
+        }
+        edge *= 1.25;
+    }
+}
+
+/// The spheres placed so far, in chains by cell.
+struct Placed<'a> {
+    field: &'a Field<'a>,
+    centers: Vec<DVec3>,
+    first: Vec<Option<u32>>,
+    next: Vec<Option<u32>>,
+}
+
+impl<'a> Placed<'a> {
+    fn new(field: &'a Field<'a>, count: usize) -> Placed<'a> {
+        let first = vec![None; field.reaching.len()];
+        Placed { field, centers: Vec::with_capacity(count), first, next: Vec::with_capacity(count) }
+    }
+
+    fn place(&mut self, center: DVec3) {
+        let head = &mut self.first[self.field.cell_of(center)];
+        self.next.push(head.replace(self.centers.len() as u32));
+        self.centers.push(center);
+    }
+
+    fn is_free(&self, center: DVec3) -> bool {
+        let diameter = 2.0 * self.field.r;
+        let mut cells = self.field.cells_of(Bounds::around(center, diameter));
+        cells.all(|cell| self.chain(cell).all(|other| other.distance(center) >= diameter))
+    }
+
+    fn chain(&self, cell: usize) -> impl Iterator<Item = DVec3> {
+        std::iter::successors(self.first[cell], |&index| self.next[index as usize])
+            .map(|index| self.centers[index as usize])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOTHING: Obstacles = Obstacles { walls: &[], spheres: &[] };
+
+    fn cube(edge: f64) -> Bounds {
+        Bounds { min: DVec3::ZERO, max: DVec3::splat(edge) }
+    }
+
+    fn strew(count: usize, r: f64, obstacles: &Obstacles) -> Result<Vec<DVec3>, String> {
+        strewn(cube(10.0), count, r, obstacles, &mut SplitMix64::new(7))
+    }
+
+    #[test]
+    fn sparse_and_dense_gases_are_disjoint_and_inside() {
+        // Packing fractions 0.004, 0.1, 0.3 and 0.45: the first two by insertion, the others over a lattice.
+        for count in [8, 191, 573, 860] {
+            let centers = strew(count, 0.5, &NOTHING).expect("it fits");
+            assert_eq!(centers.len(), count);
+            assert!(centers.iter().all(|&x| cube(10.0).grown(-0.5).contains(x)));
+            let apart = |(i, &a): (usize, &DVec3)| centers[..i].iter().all(|b| a.distance(*b) >= 1.0 - 1e-12);
+            assert!(centers.iter().enumerate().all(apart), "{count}");
+        }
+    }
+
+    #[test]
+    fn a_gas_keeps_clear_of_slanted_walls_and_earlier_spheres() {
+        let center = DVec3::splat(5.0);
+        let wall = Parallelogram { center, s1: DVec3::new(8.0, 6.0, 0.0), s2: DVec3::Z * 10.0 };
+        let earlier = Sphere {
+            x: center.with_y(8.0),
+            v: DVec3::ZERO,
+            mass: 1.0,
+            radius: 1.5,
+            force: DVec3::ZERO,
+            color: None,
+            name: None,
+        };
+        let obstacles = Obstacles { walls: &[wall], spheres: std::slice::from_ref(&earlier) };
+        for count in [150, 350] {
+            let centers = strew(count, 0.5, &obstacles).expect("it fits");
+            assert!(centers.iter().all(|&x| wall.distance(x) >= 0.5 - 1e-12 && x.distance(earlier.x) >= 2.0 - 1e-12));
+        }
+    }
+
+    #[test]
+    fn what_cannot_fit_is_refused_and_soon() {
+        assert!(strew(1500, 0.5, &NOTHING).is_err_and(|message| message.contains("0.7854 of the box")));
+        assert!(strew(1, 6.0, &NOTHING).is_err());
+        assert!(strew(1200, 0.5, &NOTHING).is_err(), "0.63 is above every cubic lattice");
+        assert!(strew(1000, 0.5, &NOTHING).is_ok(), "ten by ten by ten is the tightest lattice");
+    }
+
+    #[test]
+    fn thin_and_long_boxes_work() {
+        let thin = Bounds { min: DVec3::ZERO, max: DVec3::new(1e6, 1.0, 1.0) };
+        let centers = strewn(thin, 2000, 0.5, &NOTHING, &mut SplitMix64::new(1)).expect("one in five hundred metres");
+        assert!(centers.iter().all(|x| x.y == 0.5 && x.z == 0.5));
+    }
+
+    #[test]
+    fn the_cube_root_is_one() {
+        for value in [1e-27, 1e-3, 1.0, 8.0, 1e30] {
+            let root = cube_root(value);
+            assert!((root * root * root / value - 1.0).abs() < 1e-15 * 4.0, "three roundings: {value}");
+        }
+    }
+}

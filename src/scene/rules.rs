@@ -1,0 +1,328 @@
+//! Every rule that concerns more than one value, and the scene that meets them all. (A value's own range is a type in
+//! `number`.)
+
+use glam::DVec3;
+
+use super::error::{Error, Source, quote, show, show_rounded};
+use super::file::{BoxFile, ContactFile, SceneFile, SolverFile, SphereFile, WallFile};
+use super::gas::{Obstacles, strewn};
+use super::generate::{SIDES, SplitMix64, lattice, room, thermal};
+use super::locate::Step::{self, Field, Index};
+use super::near::first_hit;
+use super::number::{Amount, LARGEST, MOST_SPHERES, SMALLEST};
+use super::{ContactLaw, Method, Scene, Settings, Sphere, Wall};
+use crate::geometry::{Bounds, Parallelogram};
+
+/// Overlap that a scene may start with, in radii (of a pair: in sums of radii).
+const OVERLAP: f64 = 1e-9;
+/// Sine of the angle below which two edges count as parallel: their plane would be rounding alone.
+const PARALLEL: f64 = 1e-9;
+/// Walls that reach so many times beyond the spheres' box are not shown whole.
+const BEYOND: f64 = 20.0;
+/// How long a run lasts, s, if the scene does not say.
+const DURATION: f64 = 20.0;
+
+/// The scene of a file, if it meets every rule.
+pub(super) fn validated(file: SceneFile, source: Source) -> Result<Scene, Error> {
+    let walls = Bodies::walls(&file.walls, source)?;
+    let spheres = Bodies::spheres(&file.spheres, &walls.list, source)?;
+    refuse_overlaps(&walls, &spheres, source)?;
+    let view = match file.view {
+        Some(view) => bounds(view, &[Field("view")], source)?,
+        None => default_view(&walls.list, &spheres.list),
+    };
+    Ok(Scene {
+        name: file.name.map_or_else(|| super::key(source.origin), |name| name.0),
+        about: file.about.0,
+        gravity: file.gravity.0,
+        contact: contact_law(&file.contact),
+        solver: settings(&file.solver),
+        duration: file.duration.map_or(DURATION, |duration| duration.0),
+        view,
+        walls: walls.list,
+        spheres: spheres.list,
+    })
+}
+
+/// The contact law, with the paper's values where the file gives none.
+fn contact_law(file: &ContactFile) -> ContactLaw {
+    let restitution = file.restitution.map_or(0.8, |e| e.0);
+    ContactLaw {
+        restitution,
+        wall_restitution: file.wall_restitution.map_or(restitution, |e| e.0),
+        tangential: file.tangential.map_or(0.99, |factor| factor.0),
+        rest_speed: file.rest_speed.map_or(0.1, |speed| speed.0),
+    }
+}
+
+/// What to solve with, with the paper's values where the file gives none.
+fn settings(file: &SolverFile) -> Settings {
+    Settings {
+        method: file.method.unwrap_or(Method::Paper),
+        dt: file.dt.map_or(0.01, |dt| dt.0),
+        tolerance: file.tolerance.map_or(0.001, |tolerance| tolerance.0),
+    }
+}
+
+/// A box with a volume.
+fn bounds(file: BoxFile, path: &[Step], source: Source) -> Result<Bounds, Error> {
+    let (min, max) = (file.min.0, file.max.0);
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        if min[axis] >= max[axis] {
+            let (min, max) = (show(min[axis]), show(max[axis]));
+            let message = format!("along {name}, min {min} and max {max} are refused; allowed is a min below its max");
+            return Err(source.refuse(path, message));
+        }
+    }
+    Ok(Bounds { min, max })
+}
+
+/// Bodies and, for each, the entry of the file that it came from.
+struct Bodies<T> {
+    list: Vec<T>,
+    entries: Vec<u32>,
+}
+
+impl<T> Bodies<T> {
+    fn new() -> Bodies<T> {
+        Bodies { list: Vec::new(), entries: Vec::new() }
+    }
+
+    fn extend(&mut self, entry: usize, bodies: impl IntoIterator<Item = T>) {
+        self.list.extend(bodies);
+        self.entries.resize(self.list.len(), entry as u32);
+    }
+
+    fn entry(&self, body: usize) -> usize {
+        self.entries[body] as usize
+    }
+
+    /// Which body of its entry it is, if the entry made several.
+    fn place_in_entry(&self, body: usize) -> Option<usize> {
+        let first = self.entries.partition_point(|&entry| entry < self.entries[body]);
+        let next = self.entries.partition_point(|&entry| entry <= self.entries[body]);
+        (next - first > 1).then_some(body - first)
+    }
+}
+
+impl Bodies<Wall> {
+    fn walls(entries: &[WallFile], source: Source) -> Result<Bodies<Wall>, Error> {
+        let mut walls = Bodies::new();
+        for (entry, wall) in entries.iter().enumerate() {
+            let path = [Field("walls"), Index(entry)];
+            match *wall {
+                WallFile::Wall { center, s1, s2, color } => {
+                    let shape = Parallelogram { center: center.0, s1: s1.0, s2: s2.0 };
+                    refuse_degenerate(&shape, &path, source)?;
+                    walls.extend(entry, [Wall { shape, color: color.map(|color| color.0) }]);
+                }
+                WallFile::Room { min, max, color } => {
+                    let bounds = bounds(BoxFile { min, max }, &path, source)?;
+                    walls.extend(entry, room(bounds, color.map(|color| color.0)));
+                }
+            }
+        }
+        let degenerate = walls.list.iter().position(|wall| fault(&wall.shape).is_some());
+        match degenerate.map(|wall| walls.entry(wall)) {
+            Some(entry) => {
+                Err(source.refuse(&[Field("walls"), Index(entry)], "the room is too thin to have six walls"))
+            }
+            None => Ok(walls),
+        }
+    }
+
+    fn describe(&self, wall: usize) -> String {
+        let entry = self.entry(wall);
+        match self.place_in_entry(wall) {
+            Some(side) => format!("wall {wall} (the {} of walls[{entry}])", SIDES[side]),
+            None => format!("wall {wall} (walls[{entry}])"),
+        }
+    }
+}
+
+/// What keeps a parallelogram from being one.
+fn fault(shape: &Parallelogram) -> Option<String> {
+    let (long1, long2) = (shape.s1.length(), shape.s2.length());
+    for (name, long) in [("s1", long1), ("s2", long2)] {
+        if long < SMALLEST {
+            return Some(format!("the edge {name} of length {} m is refused; allowed is 1e-30 m or more", show(long)));
+        }
+    }
+    let sine = (shape.s1 / long1).cross(shape.s2 / long2).length();
+    (sine <= PARALLEL).then(|| "s1 and s2 are parallel; allowed are edges that span a plane".to_owned())
+}
+
+fn refuse_degenerate(shape: &Parallelogram, path: &[Step], source: Source) -> Result<(), Error> {
+    fault(shape).map_or(Ok(()), |message| Err(source.refuse(path, message)))
+}
+
+impl Bodies<Sphere> {
+    fn spheres(entries: &[SphereFile], walls: &[Wall], source: Source) -> Result<Bodies<Sphere>, Error> {
+        let shapes: Vec<Parallelogram> = walls.iter().map(|wall| wall.shape).collect();
+        let mut spheres = Bodies::new();
+        for (entry, file) in entries.iter().enumerate() {
+            let path = [Field("spheres"), Index(entry)];
+            let wanted = wanted(file).saturating_add(spheres.list.len());
+            if wanted > MOST_SPHERES {
+                let message = format!("with it the scene has {wanted} spheres; allowed are up to {MOST_SPHERES}");
+                return Err(source.refuse(&path, message));
+            }
+            let made = match file {
+                SphereFile::Gas { min, max, .. } => {
+                    let bounds = bounds(BoxFile { min: *min, max: *max }, &path, source)?;
+                    let obstacles = Obstacles { walls: &shapes, spheres: &spheres.list };
+                    gas(file, bounds, &obstacles).map_err(|message| source.refuse(&path, message))?
+                }
+                SphereFile::Lattice { .. } => crystal(file),
+                SphereFile::Sphere { .. } => single(file),
+            };
+            refuse_far(&made, &path, source)?;
+            spheres.extend(entry, made);
+        }
+        Ok(spheres)
+    }
+
+    fn describe(&self, sphere: usize) -> String {
+        let entry = self.entry(sphere);
+        let place = self.place_in_entry(sphere).map_or(String::new(), |place| format!(", its number {place}"));
+        let name = self.list[sphere].name.as_deref().map_or(String::new(), |name| format!(", {}", quote(name)));
+        format!("sphere {sphere} (spheres[{entry}]{place}{name})")
+    }
+}
+
+/// How many spheres an entry makes.
+fn wanted(file: &SphereFile) -> usize {
+    match file {
+        SphereFile::Sphere { .. } => 1,
+        SphereFile::Gas { count, .. } => count.0,
+        SphereFile::Lattice { counts: (x, y, z), .. } => x.0.saturating_mul(y.0).saturating_mul(z.0),
+    }
+}
+
+/// Generators may add up to what no single value may be.
+fn refuse_far(spheres: &[Sphere], path: &[Step], source: Source) -> Result<(), Error> {
+    let largest = spheres.iter().map(|s| s.x.abs().max(s.v.abs()).max_element()).fold(0.0, f64::max);
+    if largest <= LARGEST {
+        return Ok(());
+    }
+    let message = format!("a coordinate or speed of {} is refused; allowed is up to 1e30", show_rounded(largest));
+    Err(source.refuse(path, message))
+}
+
+fn single(file: &SphereFile) -> Vec<Sphere> {
+    let SphereFile::Sphere { x, v, mass, radius, force, color, name } = file else { return Vec::new() };
+    let name = name.as_ref().map(|name| name.0.clone());
+    let color = color.map(|color| color.0);
+    vec![Sphere { x: x.0, v: v.0, mass: mass.0, radius: radius.0, force: force.0, color, name }]
+}
+
+fn crystal(file: &SphereFile) -> Vec<Sphere> {
+    let SphereFile::Lattice { origin, counts, spacing, jitter, seed, mass, radius, v, speed, color } = file else {
+        return Vec::new();
+    };
+    let mut draw = SplitMix64::new(*seed);
+    let counts = [counts.0.0, counts.1.0, counts.2.0];
+    let centers = lattice(origin.0, counts, spacing.0, jitter.map_or(0.0, |jitter| jitter.0), &mut draw);
+    let like = Sphere {
+        x: DVec3::ZERO,
+        v: v.0,
+        mass: mass.0,
+        radius: radius.0,
+        force: DVec3::ZERO,
+        color: color.map(|color| color.0),
+        name: None,
+    };
+    set_in_motion(centers, *speed, &like, &mut draw)
+}
+
+fn gas(file: &SphereFile, bounds: Bounds, obstacles: &Obstacles) -> Result<Vec<Sphere>, String> {
+    let SphereFile::Gas { count, seed, speed, mass, radius, color, .. } = file else { return Ok(Vec::new()) };
+    let mut draw = SplitMix64::new(*seed);
+    let centers = strewn(bounds, count.0, radius.0, obstacles, &mut draw)?;
+    let color = color.map(|color| color.0);
+    let like = Sphere {
+        x: DVec3::ZERO,
+        v: DVec3::ZERO,
+        mass: mass.0,
+        radius: radius.0,
+        force: DVec3::ZERO,
+        color,
+        name: None,
+    };
+    Ok(set_in_motion(centers, *speed, &like, &mut draw))
+}
+
+/// Spheres like one another at these centres, with thermal velocities on top of their common one if a speed is given.
+fn set_in_motion(centers: Vec<DVec3>, speed: Option<Amount>, like: &Sphere, draw: &mut SplitMix64) -> Vec<Sphere> {
+    let velocities = match speed {
+        Some(Amount(speed)) => thermal(centers.len(), speed, draw),
+        None => vec![DVec3::ZERO; centers.len()],
+    };
+    let moved = |(x, v): (DVec3, DVec3)| Sphere { x, v: like.v + v, ..like.clone() };
+    centers.into_iter().zip(velocities).map(moved).collect()
+}
+
+/// Refuses the first two bodies found that overlap by more than rounding.
+fn refuse_overlaps(walls: &Bodies<Wall>, spheres: &Bodies<Sphere>, source: Source) -> Result<(), Error> {
+    let all = &spheres.list;
+    let of_spheres = all.iter().map(|sphere| Bounds::around(sphere.x, sphere.radius));
+    let boxes: Vec<Bounds> = of_spheres.chain(walls.list.iter().map(|wall| wall.shape.bounds())).collect();
+    let depth = |a: usize, b: usize| match b.checked_sub(all.len()) {
+        None => pair_depth(&all[a], &all[b]),
+        Some(wall) if a < all.len() => wall_depth(&all[a], &walls.list[wall]),
+        Some(_) => None,
+    };
+    let Some((a, b)) = first_hit(&boxes, &|a, b| depth(a, b).is_some()) else { return Ok(()) };
+    let other = b.checked_sub(all.len()).map_or_else(|| spheres.describe(b), |wall| walls.describe(wall));
+    let later = if b < all.len() { b } else { a };
+    let message = format!(
+        "{} overlaps {other} by {} m; allowed is up to 1e-9 of the radius",
+        spheres.describe(a),
+        show_rounded(depth(a, b).unwrap_or(0.0)),
+    );
+    Err(source.refuse(&[Field("spheres"), Index(spheres.entry(later))], message))
+}
+
+/// How deep two spheres overlap, m, if deeper than allowed.
+fn pair_depth(a: &Sphere, b: &Sphere) -> Option<f64> {
+    let reach = a.radius + b.radius;
+    let depth = reach - a.x.distance(b.x);
+    (depth > OVERLAP * reach).then_some(depth)
+}
+
+/// How deep a sphere overlaps the closest point of a wall, m, if deeper than allowed.
+fn wall_depth(sphere: &Sphere, wall: &Wall) -> Option<f64> {
+    let depth = sphere.radius - wall.shape.distance(sphere.x);
+    (depth > OVERLAP * sphere.radius).then_some(depth)
+}
+
+/// What the screen shows if the scene does not say: the walls' box and the spheres with it, or twice the spheres' box
+/// if the walls reach far beyond.
+fn default_view(walls: &[Wall], spheres: &[Sphere]) -> Bounds {
+    let walls = Bounds::of(walls.iter().map(|wall| wall.shape.bounds()));
+    let spheres = Bounds::of(spheres.iter().map(|sphere| Bounds::around(sphere.x, sphere.radius)));
+    let twice = |bounds: Bounds| {
+        let half = bounds.size();
+        Bounds { min: bounds.center() - half, max: bounds.center() + half }
+    };
+    let view = match (walls, spheres) {
+        (Some(walls), Some(spheres)) => {
+            let beyond = (spheres.min - walls.min).max(walls.max - spheres.max).max_element();
+            let far = beyond > BEYOND * spheres.size().max_element();
+            if far { twice(spheres) } else { walls.union(spheres) }
+        }
+        (Some(walls), None) => walls,
+        (None, Some(spheres)) => twice(spheres),
+        (None, None) => Bounds { min: DVec3::splat(-1.0), max: DVec3::ONE },
+    };
+    with_volume(view)
+}
+
+/// The box, thickened where it is flat.
+fn with_volume(view: Bounds) -> Bounds {
+    let size = view.size();
+    let half = size.max_element() * 0.05;
+    let flat = |axis: usize| if size[axis] > 0.0 { 0.0 } else { half };
+    let margin = DVec3::new(flat(0), flat(1), flat(2));
+    Bounds { min: view.min - margin, max: view.max + margin }
+}

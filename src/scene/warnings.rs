@@ -1,0 +1,69 @@
+//! What is allowed in a scene, but probably not meant.
+
+use super::error::show_rounded;
+use super::{Method, Scene, Sphere};
+use crate::geometry::Bounds;
+
+/// Spacings of the numbers around a coordinate that a radius should hold at least: fewer, and the gap is mostly rounding.
+const RESOLVED: f64 = 1e6;
+
+/// Sentences on what is allowed in the scene, but probably not meant; none for most scenes.
+pub fn warnings(scene: &Scene) -> Vec<String> {
+    let all =
+        [restitution(scene), empty(scene), outside_view(scene), outside_walls(scene), tunnels(scene), rounding(scene)];
+    all.into_iter().flatten().collect()
+}
+
+fn restitution(scene: &Scene) -> Option<String> {
+    let law = &scene.contact;
+    let elastic =
+        law.wall_restitution == 1.0 && !scene.walls.is_empty() || law.restitution == 1.0 && scene.spheres.len() > 1;
+    (elastic && law.rest_speed > 0.0).then(|| {
+        let speed = show_rounded(law.rest_speed);
+        format!(
+            "restitution is 1 but rest_speed is {speed} m/s: slow impacts rest and lose energy; set rest_speed to 0"
+        )
+    })
+}
+
+fn empty(scene: &Scene) -> Option<String> {
+    scene.spheres.is_empty().then(|| "the scene has no spheres: nothing will move".to_owned())
+}
+
+fn outside_view(scene: &Scene) -> Option<String> {
+    let unseen = |sphere: &Sphere| !scene.view.touches(&Bounds::around(sphere.x, sphere.radius));
+    counted(scene, unseen).map(|who| format!("{who} outside the view box and can't be seen at first"))
+}
+
+fn outside_walls(scene: &Scene) -> Option<String> {
+    let walls = Bounds::of(scene.walls.iter().map(|wall| wall.shape.bounds()))?;
+    // Flat boxes (a single floor) enclose nothing.
+    let closed = scene.walls.len() >= 6 && walls.size().min_element() > 0.0;
+    let outside = |sphere: &Sphere| closed && !walls.contains(sphere.x);
+    counted(scene, outside).map(|who| format!("{who} outside the box of all walls"))
+}
+
+fn tunnels(scene: &Scene) -> Option<String> {
+    let dt = scene.solver.dt;
+    let jumps = |sphere: &Sphere| scene.solver.method == Method::Paper && sphere.v.length() * dt > 2.0 * sphere.radius;
+    counted(scene, jumps).map(|who| {
+        let dt = show_rounded(dt);
+        format!("{who} so fast that it crosses more than its diameter in a step of {dt} s: `paper` may miss its contacts; lower dt")
+    })
+}
+
+fn rounding(scene: &Scene) -> Option<String> {
+    let lost = |sphere: &Sphere| sphere.x.abs().max_element() * f64::EPSILON * RESOLVED > sphere.radius;
+    counted(scene, lost)
+        .map(|who| format!("{who} so far from the origin for its radius that rounding moves it visibly"))
+}
+
+/// The spheres for which something holds, as the beginning of a sentence.
+fn counted(scene: &Scene, holds: impl Fn(&Sphere) -> bool) -> Option<String> {
+    let mut found = scene.spheres.iter().enumerate().filter(|(_, sphere)| holds(sphere));
+    let (first, _) = found.next()?;
+    Some(match found.count() {
+        0 => format!("sphere {first} is"),
+        others => format!("sphere {first} (and {others} more) is"),
+    })
+}
