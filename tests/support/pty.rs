@@ -166,15 +166,20 @@ impl Pty {
 
     /// The exit code, and the screen as the program left it.
     pub(crate) fn exit(&mut self) -> u32 {
-        let code = loop {
-            match self.exit.try_recv() {
-                Ok(code) => break code,
-                Err(_) => drop(self.read(Duration::from_millis(5))),
-            }
-            assert!(self.output.len() < 1 << 26, "it writes on instead of ending");
-        };
+        let turn = Duration::from_millis(5);
+        let turns = PATIENCE.as_millis() / turn.as_millis();
+        let code = (0..turns).find_map(|_| {
+            drop(self.read(turn)); // a program that can't write might not end
+            self.exit.try_recv().ok()
+        });
+        let code = code.unwrap_or_else(|| panic!("it never ends; the screen:\n{}", self.text()));
         while self.read(Duration::from_millis(50)).is_some_and(|bytes| !bytes.is_empty()) {}
         code
+    }
+
+    /// Looks away: nothing is read for that long, or until the program ends; its exit code if it did.
+    pub(crate) fn look_away(&mut self, time: Duration) -> Option<u32> {
+        self.exit.recv_timeout(time).ok()
     }
 
     /// Closes the terminal under the program, as a dropped connection does; its exit code. Only while it draws.
