@@ -17,8 +17,7 @@ pub use drive::run;
 
 use crate::{
     app::Input,
-    physics::Settings,
-    scene::Opened,
+    scene::{Opened, Settings},
     view::{Colors, Marker},
 };
 
