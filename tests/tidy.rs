@@ -2,6 +2,8 @@
 //!
 //! Each rule is a function from a file to its complaints, so that the last test can show each of them an offence.
 
+#[path = "tidy/readme.rs"]
+mod readme;
 #[path = "tidy/source.rs"]
 mod source;
 
