@@ -91,3 +91,33 @@ pub(crate) fn paper_scene(k: usize) -> Scene {
     let spheres = spheres.into_iter().map(|(x, v)| sphere(x, v, 0.5)).collect();
     scene(G, PAPER_LAW, walls, spheres)
 }
+
+/// `n`³ spheres of mass 1 kg on a cubic lattice about the origin, all with the same velocity.
+pub(crate) fn lattice(n: usize, spacing: f64, v: DVec3, radius: f64) -> Vec<Sphere> {
+    let at = |k: usize| (k as f64 - 0.5 * (n - 1) as f64) * spacing;
+    let place = |k: usize| dvec3(at(k / (n * n)), at(k / n % n), at(k % n));
+    (0..n * n * n).map(|k| sphere(place(k), v, radius)).collect()
+}
+
+/// An elastic gas of `n` spheres of radius 0.1 m and rms speed 1 m/s per axis (uniform, not yet thermal), filling a
+/// tenth of its box.
+pub(crate) fn gas(n: usize, seed: u64, speed: f64) -> Scene {
+    let mut state = seed;
+    let mut centered = || {
+        // SplitMix64.
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    // A tenth: spheres of 4/3 π 0.1³ m³ in cells of 0.3473 m, jittered by what the gap allows.
+    let (side, spacing) = ((1..).find(|k| k * k * k >= n).unwrap_or(1), 0.3473);
+    let mut spheres = lattice(side, spacing, DVec3::ZERO, 0.1);
+    spheres.truncate(n);
+    for body in &mut spheres {
+        body.x += dvec3(centered(), centered(), centered()) * 0.14;
+        body.v = dvec3(centered(), centered(), centered()) * (speed * 12f64.sqrt());
+    }
+    let half = DVec3::splat(0.5 * spacing * side as f64);
+    scene(DVec3::ZERO, ELASTIC, room(-half, half), spheres)
+}
