@@ -110,6 +110,35 @@ fn pair_degree(a: DVec3, b: DVec3, reach: f64, slack: f64) -> Option<f64> {
     (degree >= -slack).then_some(degree)
 }
 
+/// Degrees that a test of every sphere against every wall and every other sphere computes.
+pub fn evaluations(model: &Model) -> u64 {
+    let n = model.len() as u64;
+    n * model.faces.len() as u64 + n * n.saturating_sub(1) / 2
+}
+
+/// Whether any sphere is as near to a wall's plane, or to another sphere, as a contact needs: a quick look at scenes
+/// whose pairs are all looked at. `WALLS` and `PAIRS` tell whether there are any.
+#[inline(always)]
+pub fn any_near<const WALLS: bool, const PAIRS: bool>(model: &Model, x: &[DVec3]) -> bool {
+    let mut near = false;
+    if WALLS {
+        for (x, r) in x.iter().zip(&model.radii) {
+            for face in &model.faces {
+                near |= face.height(*x).abs() <= *r;
+            }
+        }
+    }
+    if PAIRS {
+        for (a, (x_a, r_a)) in x.iter().zip(&model.radii).enumerate() {
+            for (x_b, r_b) in x.iter().zip(&model.radii).skip(a + 1) {
+                let reach = r_a + r_b;
+                near |= (*x_a - *x_b).length_squared() <= reach * reach;
+            }
+        }
+    }
+    near
+}
+
 /// All overlaps of one trial state at a time, found in slices: [`Finder::begin`], then [`Finder::walls`] over all
 /// spheres, then [`Finder::pairs`] until it is done.
 #[derive(Debug, Clone, Default)]

@@ -1,7 +1,10 @@
 //! Builders of scenes in code, for tests that ask about physics and not about files.
 
+// Each test file is a crate of its own and uses what it needs.
+#![allow(dead_code)]
+
 use carom::geometry::{Bounds, Parallelogram};
-use carom::physics::{Method, Scene, Settings};
+use carom::physics::{Method, Progress, Scene, Settings, Simulation, Stall, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 
@@ -62,32 +65,46 @@ pub(crate) const G: DVec3 = dvec3(0.0, -9.8, 0.0);
 
 /// Scene `k` of the source paper.
 pub(crate) fn paper_scene(k: usize) -> Scene {
-    let mut walls = room(dvec3(-5.0, 0.0, -2.5), dvec3(5.0, 10.0, 17.5));
-    let long = dvec3(0.0, 0.0, 20.0);
-    let (out, back) = (dvec3(0.0, 0.0, 4.0), dvec3(0.0, 0.0, -4.0));
-    walls.extend(match k {
-        1 | 3 => vec![wall(dvec3(3.0, 3.0, 7.5), long, dvec3(8.0, 6.0, 0.0))],
-        2 => vec![
-            wall(dvec3(0.0, 4.0, -0.5), out, dvec3(10.0, 2.0, 0.0)),
-            wall(dvec3(0.0, 2.0, -0.5), out, dvec3(10.0, -2.0, 0.0)),
-        ],
-        4 => vec![
-            wall(dvec3(-2.5, 2.5, -0.5), dvec3(5.0, -3.0, 0.0), back),
-            wall(dvec3(2.5, 2.5, -0.5), out, dvec3(5.0, 3.0, 0.0)),
-        ],
-        _ => vec![],
-    });
-    let spheres = match k {
-        0 => vec![(dvec3(-4.5, 9.5, 0.0), DVec3::ZERO)],
-        1 => vec![(dvec3(4.5, 5.0, 5.0), dvec3(0.0, 0.0, -2.0))],
-        2 => vec![
-            (dvec3(-4.5, 7.0, -0.5), dvec3(3.0, 2.0, 0.0)),
-            (dvec3(4.5, 3.0, -0.5), dvec3(0.0, 10.0, 0.0)),
-            (dvec3(0.0, 1.0, -0.5), dvec3(0.0, 10.0, 0.0)),
-        ],
-        3 => vec![(dvec3(-4.5, 0.5, 0.0), dvec3(5.0, 0.0, 0.0)), (dvec3(4.5, 5.5, 0.0), dvec3(-3.0, 0.0, 0.0))],
-        _ => vec![(dvec3(-4.5, 9.5, -0.5), dvec3(5.0, 0.0, 0.0)), (dvec3(4.5, 9.5, -0.5), dvec3(-5.0, 0.0, 0.0))],
+    carom::scene::open(&format!("paper-{k}")).expect("a built-in scene").scene
+}
+
+/// Goes on to a frame that ends at or after `t` (s), in slices of `work`; why it stalled, if it did.
+pub(crate) fn run_to(run: &mut Simulation, t: f64, work: u64) -> Option<Stall> {
+    loop {
+        match run.advance(Until::Time(t), work) {
+            Progress::Reached => return None,
+            Progress::Yielded => {}
+            Progress::Stalled(stall) => return Some(stall),
+        }
+    }
+}
+
+/// `n`³ spheres of mass 1 kg on a cubic lattice about the origin, all with the same velocity.
+pub(crate) fn lattice(n: usize, spacing: f64, v: DVec3, radius: f64) -> Vec<Sphere> {
+    let at = |k: usize| (k as f64 - 0.5 * (n - 1) as f64) * spacing;
+    let place = |k: usize| dvec3(at(k / (n * n)), at(k / n % n), at(k % n));
+    (0..n * n * n).map(|k| sphere(place(k), v, radius)).collect()
+}
+
+/// An elastic gas of `n` spheres of radius 0.1 m and rms speed 1 m/s per axis (uniform, not yet thermal), filling a
+/// tenth of its box.
+pub(crate) fn gas(n: usize, seed: u64, speed: f64) -> Scene {
+    let mut state = seed;
+    let mut centered = || {
+        // SplitMix64.
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     };
-    let spheres = spheres.into_iter().map(|(x, v)| sphere(x, v, 0.5)).collect();
-    scene(G, PAPER_LAW, walls, spheres)
+    // A tenth: spheres of 4/3 π 0.1³ m³ in cells of 0.3473 m, jittered by what the gap allows.
+    let (side, spacing) = ((1..).find(|k| k * k * k >= n).unwrap_or(1), 0.3473);
+    let mut spheres = lattice(side, spacing, DVec3::ZERO, 0.1);
+    spheres.truncate(n);
+    for body in &mut spheres {
+        body.x += dvec3(centered(), centered(), centered()) * 0.14;
+        body.v = dvec3(centered(), centered(), centered()) * (speed * 12f64.sqrt());
+    }
+    let half = DVec3::splat(0.5 * spacing * side as f64);
+    scene(DVec3::ZERO, ELASTIC, room(-half, half), spheres)
 }

@@ -3,7 +3,7 @@
 use super::super::log::Log;
 use super::super::model::PairSearch;
 use super::super::motion::{Flight, with_flight};
-use super::super::overlap::Overlap;
+use super::super::overlap::{self, Overlap};
 use super::super::{Model, Probe};
 use super::trial::{Stage, fly};
 use super::{Paper, Search};
@@ -105,45 +105,65 @@ impl Paper {
         }
         self.kicks.clear();
         self.allowed.clear();
-        with_flight!(model, flight => self.fly_frames(flight, model, log, goal, work))
+        let walls = !model.faces.is_empty();
+        let pairs = model.pairs == PairSearch::All;
+        with_flight!(model, flight => match (walls, pairs) {
+            (false, false) => self.fly_frames::<_, false, false>(flight, model, log, goal, work),
+            (true, false) => self.fly_frames::<_, true, false>(flight, model, log, goal, work),
+            (false, true) => self.fly_frames::<_, false, true>(flight, model, log, goal, work),
+            (true, true) => self.fly_frames::<_, true, true>(flight, model, log, goal, work),
+        })
     }
 
-    fn fly_frames<F: Flight>(&mut self, flight: F, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
+    /// [`Paper::cruise`] with nothing in its loop that the scene lacks.
+    fn fly_frames<F: Flight, const WALLS: bool, const PAIRS: bool>(
+        &mut self,
+        flight: F,
+        model: &Model,
+        log: &mut Log,
+        goal: f64,
+        work: u64,
+    ) -> u64 {
         let (dt, n) = (self.settings.dt, model.len());
-        let mut spent = 0;
-        let mut frames = 0;
-        let mut evaluations = 0;
-        let Paper { start, end, finder, .. } = self;
-        let undisturbed = loop {
-            std::mem::swap(start, end);
-            end.t = start.t + dt;
-            finder.begin();
-            self.residue = fly(flight, start, end, 0..n, dt);
-            finder.walls(model, &start.x, &end.x, 0..n);
-            finder.pairs(model, &end.x);
-            spent += n as u64 + finder.evaluations;
-            if !(finder.found.is_empty() && self.residue == 0.0 && end.t > start.t) {
-                break false;
+        let evaluations = overlap::evaluations(model);
+        let most = (work / (n as u64 + evaluations).max(1)).max(1);
+        let (mut from, mut to, mut swapped) = (&mut self.start, &mut self.end, false);
+        let (mut frames, mut t) = (0, to.t);
+        let touched = loop {
+            (from, to, swapped) = (to, from, !swapped);
+            from.t = t;
+            t += dt;
+            self.residue = fly(flight, from, to, 0..n, dt);
+            if self.residue != 0.0 || t <= from.t || overlap::any_near::<WALLS, PAIRS>(model, &to.x) {
+                self.finder.begin();
+                self.finder.walls(model, &from.x, &to.x, 0..n);
+                self.finder.pairs(model, &to.x);
+                if self.residue != 0.0 || t <= from.t || !self.finder.found.is_empty() {
+                    break true;
+                }
             }
             frames += 1;
-            evaluations += finder.evaluations;
-            if end.t >= goal || spent >= work {
-                break true;
+            if t >= goal || frames >= most {
+                break false;
             }
         };
-        log.tallies.frames += frames;
-        log.tallies.evaluations += evaluations;
+        to.t = t;
+        if swapped {
+            std::mem::swap(&mut self.start, &mut self.end);
+        }
         if frames > 0 {
+            log.tallies.frames += frames;
+            log.tallies.evaluations += frames * evaluations;
             log.contacts.clear();
             log.probes.clear();
             self.step = dt;
         }
-        if !undisturbed {
+        if touched {
             self.search = Search::Whole;
             self.probes.clear();
             self.stage = Stage::Complete;
             self.trial = Some(dt);
         }
-        spent
+        (frames + u64::from(touched)) * (n as u64 + evaluations)
     }
 }
