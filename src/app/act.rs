@@ -6,7 +6,7 @@ use super::{
     App, Current, Effect, Open,
     action::{Action, Direction},
     keys::{self, Code, Key},
-    knobs, look, name_of,
+    knobs, look, name_of, pairs,
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
 };
@@ -41,10 +41,13 @@ impl App {
                 }
                 Outcome::NotMine => return self.act_on(key),
             },
-            Open::Help { scroll } => match scrolled(key, *scroll, self.help.len(), self.area.height.into()) {
-                Some(next) => *scroll = next,
-                None => return self.act_on(key),
-            },
+            Open::Help { scroll } => {
+                let limit = view::help_scroll_limit(&pairs(&self.help), &self.look, self.area);
+                match scrolled(key, *scroll, limit, self.area.height.into()) {
+                    Some(next) => *scroll = next,
+                    None => return self.act_on(key),
+                }
+            }
             Open::Nothing => return self.act_on(key),
         }
         Effect::DrawNow
@@ -310,8 +313,8 @@ impl App {
     }
 }
 
-/// Where a key scrolls a text of so many rows to, on a screen of so many, if it is a scrolling key.
-fn scrolled(key: Key, scroll: usize, rows: usize, screen: usize) -> Option<usize> {
+/// Where a key scrolls a text that goes down by `limit` rows at most, on a screen of so many, if it is a scrolling key.
+fn scrolled(key: Key, scroll: usize, limit: usize, screen: usize) -> Option<usize> {
     // Status, heading, timeline and hints leave the rest of the screen to the text.
     let page = screen.saturating_sub(4).max(1);
     let to = match key.code {
@@ -320,12 +323,12 @@ fn scrolled(key: Key, scroll: usize, rows: usize, screen: usize) -> Option<usize
         Code::PageUp => scroll.saturating_sub(page),
         Code::PageDown => scroll + page,
         Code::Home => 0,
-        Code::End => rows,
+        Code::End => limit,
         Code::Char('k') if !key.ctrl && !key.alt => scroll.saturating_sub(1),
         Code::Char('j') if !key.ctrl && !key.alt => scroll + 1,
         _ => return None,
     };
-    Some(to.min(rows.saturating_sub(page)))
+    Some(to.min(limit))
 }
 
 /// An error's lines joined, for the message line.

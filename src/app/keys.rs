@@ -119,31 +119,31 @@ const TABLE: &[Binding] = &[
     hint(&[K::char('c')], Action::NextImpact, "run to the next collision", "collision"),
     hint(&[K::char('r')], Action::Restart, "restart", "restart"),
     bind(&[K::char('R')], Action::Reload, "reload the scene's file"),
-    bind(&[K::char('[')], Action::PreviousScene, "previous scene"),
-    bind(&[K::char(']')], Action::NextScene, "next scene"),
+    bind(&[K::char('[')], Action::PreviousScene, "previous, next scene"),
+    bind(&[K::char(']')], Action::NextScene, "previous, next scene"),
     hint(&[K::char('?'), K::plain(Code::F(1))], Action::Help, "help", "help"),
     hint(&[K::char('q'), K::ctrl('c')], Action::Quit, "quit", "quit"),
     hint(&[K::char('o')], Action::Scenes, "scene list", "scenes"),
-    hint(&[K::char('+')], Action::Faster, "speed x 2", "faster"),
-    hint(&[K::char('-')], Action::Slower, "speed / 2", "slower"),
+    hint(&[K::char('+')], Action::Faster, "faster, slower", "faster"),
+    hint(&[K::char('-')], Action::Slower, "faster, slower", "slower"),
     bind(&[K::char('=')], Action::RealTime, "real time"),
-    bind(&[K::char('t')], Action::LowerTolerance, "tolerance / 10"),
-    bind(&[K::char('T')], Action::RaiseTolerance, "tolerance x 10"),
-    bind(&[K::char('s')], Action::HalveDt, "dt / 2"),
-    bind(&[K::char('S')], Action::DoubleDt, "dt x 2"),
+    bind(&[K::char('t')], Action::LowerTolerance, "tolerance / 10, x 10"),
+    bind(&[K::char('T')], Action::RaiseTolerance, "tolerance / 10, x 10"),
+    bind(&[K::char('s')], Action::HalveDt, "dt / 2, x 2"),
+    bind(&[K::char('S')], Action::DoubleDt, "dt / 2, x 2"),
     bind(&[K::char('m')], Action::NextMethod, "next method"),
-    hint(&[K::plain(Code::Tab)], Action::SelectNext, "select the next sphere", "select"),
-    bind(&[K::shift(Code::Tab)], Action::SelectPrevious, "select the sphere before"),
+    hint(&[K::plain(Code::Tab)], Action::SelectNext, "select next, previous sphere", "select"),
+    bind(&[K::shift(Code::Tab)], Action::SelectPrevious, "select next, previous sphere"),
     bind(&[K::char('f')], Action::Follow, "follow the selected sphere"),
     bind(&[K::char('i')], Action::Inspector, "inspector"),
     hint(&[K::char('v')], Action::NextViews, "views: both, side, top", "views"),
     bind(&[K::char('d')], Action::NextOverlays, "overlays: contacts, + normals, velocities, ids, all, none"),
-    bind(&[K::char('h'), K::shift(Code::Left)], Action::Pan(Direction::Left), "pan left"),
-    bind(&[K::char('j'), K::shift(Code::Down)], Action::Pan(Direction::Down), "pan down"),
-    bind(&[K::char('k'), K::shift(Code::Up)], Action::Pan(Direction::Up), "pan up"),
-    bind(&[K::char('l'), K::shift(Code::Right)], Action::Pan(Direction::Right), "pan right"),
-    bind(&[K::char('z')], Action::ZoomIn, "zoom in"),
-    bind(&[K::char('Z')], Action::ZoomOut, "zoom out"),
+    bind(&[K::char('h'), K::shift(Code::Left)], Action::Pan(Direction::Left), "pan (Shift-arrows too)"),
+    bind(&[K::char('j'), K::shift(Code::Down)], Action::Pan(Direction::Down), "pan (Shift-arrows too)"),
+    bind(&[K::char('k'), K::shift(Code::Up)], Action::Pan(Direction::Up), "pan (Shift-arrows too)"),
+    bind(&[K::char('l'), K::shift(Code::Right)], Action::Pan(Direction::Right), "pan (Shift-arrows too)"),
+    bind(&[K::char('z')], Action::ZoomIn, "zoom in, out"),
+    bind(&[K::char('Z')], Action::ZoomOut, "zoom in, out"),
     bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
     bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
@@ -164,9 +164,14 @@ pub fn action(key: Key) -> Option<Action> {
     table().find(|row| row.keys.contains(&key)).map(|row| row.action)
 }
 
-/// The help: (keys, what they do).
+/// The help: (keys, what they do). Neighbours in the table that do sides of the same share a row, a key each.
 pub fn help_rows() -> Vec<(String, &'static str)> {
-    let rows = table().map(|row| (row.keys.iter().map(Key::to_string).collect::<Vec<_>>().join(" "), row.does));
+    let bindings: Vec<&Binding> = table().collect();
+    let rows = bindings.chunk_by(|a, b| a.does == b.does).map(|same| {
+        let each = if same.len() > 1 { 1 } else { usize::MAX };
+        let keys = same.iter().flat_map(|row| row.keys.iter().take(each));
+        (keys.map(Key::to_string).collect::<Vec<_>>().join(" "), same[0].does)
+    });
     rows.chain([(IN_THE_LIST.0.to_owned(), IN_THE_LIST.1)]).collect()
 }
 

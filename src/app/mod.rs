@@ -22,7 +22,7 @@ use crate::{
     physics::{Scene, Settings},
     scene::Opened,
     snapshot::Stage,
-    view::{self, Colors, Look, Marker, Mode, Overlays, Pace, Popup, Screen, Views},
+    view::{self, Colors, Look, Marker, Mode, Pace, Popup, Screen},
     worker::{Activity, Command, Job, Notify, Report, Worker},
 };
 
@@ -246,17 +246,7 @@ fn name_of(key: &str, path: Option<&PathBuf>) -> String {
 
 /// Both views, the whole scene, nothing selected.
 fn first_look(marker: Marker, colors: Colors) -> Look {
-    Look {
-        views: Views::Both,
-        zoom: 1.0,
-        pan: glam::DVec3::ZERO,
-        follow: false,
-        selected: None,
-        overlays: Overlays::default(),
-        inspector: false,
-        marker,
-        colors,
-    }
+    Look { marker, colors, ..Look::default() }
 }
 
 fn pace(report: &Report) -> Pace {

@@ -222,6 +222,7 @@ fn input(event: &Parsed) -> Option<Input> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::{prelude::ProptestConfig, test_runner::RngSeed};
 
     /// What comes of `bytes`, and of silence after them.
     fn decode(bytes: &[u8]) -> Vec<Input> {
@@ -296,6 +297,8 @@ mod tests {
     }
 
     proptest::proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(5), failure_persistence: None, ..ProptestConfig::default() })]
+
         #[test]
         fn no_bytes_make_it_panic_or_wait_for_ever(bytes: Vec<u8>) {
             decode(&bytes);

@@ -1,4 +1,4 @@
-//! Drives the application on a real terminal. The only place that names crossterm, termina, rustix or signal-hook.
+//! Drives the application on a real terminal. The only place that names crossterm or termina.
 //!
 //! Threads: this one obeys inputs and draws; `input` reads the terminal; `signals` waits for signals; `writer` sends
 //! pictures; the application's worker simulates. All of them post events to this one and wait for nobody.

@@ -14,8 +14,13 @@ pub(super) fn draw(probes: &[Probe], column: &mut Column) {
     column.row("      step s      degree", palette.faint());
     for probe in &probes[probes.len() - rows.min(probes.len())..] {
         let touching = if probe.degree >= 0.0 { glyphs.contact[0] } else { ' ' };
-        let row =
-            format!("{}  {} {touching}", numbers::decimal(probe.step, 12, 9), numbers::scientific(probe.degree, 10));
+        // Methods that look only for overlap report how deep it is, and of what is apart no more than that.
+        let degree = if probe.degree == f64::NEG_INFINITY {
+            format!("{:>10}", "apart")
+        } else {
+            numbers::scientific(probe.degree, 10)
+        };
+        let row = format!("{}  {degree} {touching}", numbers::decimal(probe.step, 12, 9));
         column.row(&row, palette.plain());
     }
 }
