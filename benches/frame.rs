@@ -7,7 +7,7 @@ use std::{fmt::Write as _, hint::black_box, io::Write as _, time::Instant};
 
 use carom::{
     frame::{Encoder, ansi, svg, text},
-    view::{self, Marker, Mode},
+    view::{self, Colors, Marker, Mode},
 };
 use glam::{DVec3, dvec3};
 use ratatui::{
@@ -34,12 +34,19 @@ fn main() -> std::io::Result<()> {
             naive / whole
         )?;
     }
-    writeln!(out, "sending, 80x24, 30 moving spheres, 30 frames per second, 16 colours, bytes")?;
-    for (name, marker) in [("braille", Marker::Braille), ("block", Marker::Block), ("ascii", Marker::Ascii)] {
-        let bytes = Bytes::of(marker);
+    writeln!(out, "sending, 80x24, 30 moving spheres, 30 frames per second, 16 colours unless said, bytes")?;
+    let kinds = [
+        ("braille", Marker::Braille, Colors::Ansi16),
+        ("no colour", Marker::Braille, Colors::Never),
+        ("24-bit", Marker::Braille, Colors::Rgb),
+        ("block", Marker::Block, Colors::Ansi16),
+        ("ascii", Marker::Ascii, Colors::Ansi16),
+    ];
+    for (name, marker, colors) in kinds {
+        let bytes = Bytes::of(marker, colors);
         writeln!(
             out,
-            "  {name:<8} first frame {:>5}   then {:>5} median, {:>5} p95   by absolute moves and 256-colour codes {:>5}",
+            "  {name:<9} first frame {:>5}   then {:>5} median, {:>5} p95   by absolute moves and 256-colour codes {:>5}",
             bytes.first, bytes.median, bytes.p95, bytes.naive
         )?;
     }
@@ -51,7 +58,12 @@ fn bouncing(count: usize, t: f64) -> stages::Scene {
     let mut scene = stages::gas(count);
     scene.pace.mode = Mode::Run;
     if count <= 30 {
-        stages::edit(&mut scene, |stage| stage.radii = vec![0.5; count]);
+        // Pale colours of their own, as the paper's spheres have: 24 bits show them, 16 colours take turns instead.
+        let pale = |i: usize| Some([0.6 + 0.02 * (i % 7) as f64, 0.7, 0.8 - 0.03 * (i % 5) as f64]);
+        stages::edit(&mut scene, |stage| {
+            stage.radii = vec![0.5; count];
+            stage.colors = (0..count).map(pale).collect();
+        });
     }
     let snapshot = &mut scene.snapshot;
     let (min, max) = (dvec3(-4.5, 0.5, -2.0), dvec3(4.5, 9.5, 2.0));
@@ -127,10 +139,10 @@ struct Bytes {
 }
 
 impl Bytes {
-    fn of(marker: Marker) -> Bytes {
+    fn of(marker: Marker, colors: Colors) -> Bytes {
         let frame = |i: usize| {
             let mut scene = bouncing(30, i as f64 / 30.0);
-            scene.look.marker = marker;
+            (scene.look.marker, scene.look.colors) = (marker, colors);
             draw(&scene, 80, 24)
         };
         let mut encoder = Encoder::new();

@@ -169,7 +169,7 @@ impl<W: Write> Table<W> {
             Format::JsonLines => Writer::JsonLines(writer),
             Format::Csv => {
                 let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(writer);
-                csv.write_record(R::COLUMNS)?;
+                csv.write_record(R::COLUMNS).map_err(cause)?;
                 Writer::Csv(Box::new(csv))
             }
         };
@@ -182,7 +182,7 @@ impl<W: Write> Table<W> {
     /// The writer's.
     pub fn write<R: Row>(&mut self, row: &R) -> io::Result<()> {
         match &mut self.writer {
-            Writer::Csv(csv) => Ok(csv.serialize(row)?),
+            Writer::Csv(csv) => csv.serialize(row).map_err(cause),
             Writer::JsonLines(writer) => {
                 serde_json::to_writer(&mut *writer, row)?;
                 writer.write_all(b"\n")
@@ -199,6 +199,14 @@ impl<W: Write> Table<W> {
             Writer::Csv(csv) => csv.into_inner().map_err(csv::IntoInnerError::into_error),
             Writer::JsonLines(writer) => Ok(writer),
         }
+    }
+}
+
+/// The writer's own error, with its kind: a closed pipe must be told from a full disk.
+fn cause(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Each rule is a function from a file to its complaints, so that the last test can show each of them an offence.
 
+#[path = "tidy/readme.rs"]
+mod readme;
 #[path = "tidy/source.rs"]
 mod source;
 
@@ -26,7 +28,7 @@ const PLAN: &[(&str, &[&str])] = &[
             "worker",
         ],
     ),
-    ("terminal", &["app", "frame", "scene", "view"]),
+    ("terminal", &["app", "frame", "physics", "scene", "view"]),
     ("app", &["frame", "geometry", "physics", "scene", "snapshot", "view", "worker"]),
     ("worker", &["physics", "scene", "snapshot"]),
     ("view", &["geometry", "snapshot"]),

@@ -1,6 +1,6 @@
 //! What a key can do.
 
-/// What a key can do. How it is called, and by which keys, is the business of [`super::keys`].
+/// What a key can do. How it is called, and by which keys, is the business of the key table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Action {
     /// Pause, or run.

@@ -34,6 +34,9 @@ const ANSI: [&str; 16] = [
     "#6b7380", "#ff8080", "#a8d888", "#f5d080", "#8fb8ff", "#dda6ec", "#7fd4de", "#f4f6fa",
 ];
 
+/// Monospaced fonts, the last of a size at which its characters are as wide as a cell; others are stretched.
+const FONT: &str = r#"font-family="ui-monospace,Menlo,Consolas,'DejaVu Sans Mono',monospace" font-size="16.6""#;
+
 /// What is drawn in one colour, as path data.
 #[derive(Default)]
 struct Layer {
@@ -48,7 +51,7 @@ pub fn svg(buffer: &Buffer) -> String {
     let (columns, rows) = (usize::from(buffer.area().width), usize::from(buffer.area().height));
     let mut backgrounds: BTreeMap<String, String> = BTreeMap::new();
     let mut layers: BTreeMap<String, Layer> = BTreeMap::new();
-    let mut texts = String::new();
+    let mut words = String::new();
     for y in 0..rows {
         for (x, glyph) in cells::row(buffer, y as u16).enumerate().filter(|(_, glyph)| glyph.width > 0) {
             let (ink, paper) = colors(&glyph.pen);
@@ -57,7 +60,7 @@ pub fn svg(buffer: &Buffer) -> String {
             }
             draw_shape(&glyph, x, y, layers.entry(ink).or_default());
         }
-        push_texts(buffer, y, &mut texts);
+        push_words(buffer, y, &mut words);
     }
     let mut svg = head(buffer, columns * WIDTH, rows * HEIGHT);
     for (color, boxes) in &backgrounds {
@@ -66,7 +69,8 @@ pub fn svg(buffer: &Buffer) -> String {
     for (color, layer) in &layers {
         push_layer(&mut svg, color, layer);
     }
-    svg + &texts + "</svg>\n"
+    push_line(&mut svg, &format!("<g {FONT}>"));
+    svg + &words + "</g>\n</svg>\n"
 }
 
 /// Opening tag, title, description and background.
@@ -84,42 +88,41 @@ fn head(buffer: &Buffer, width: usize, height: usize) -> String {
     )
 }
 
-/// Text runs of a row: one element per run of a style, a position for every character, so that columns stay aligned
-/// whatever the font.
-fn push_texts(buffer: &Buffer, y: usize, svg: &mut String) {
-    let glyphs: Vec<(usize, Glyph)> = cells::row(buffer, y as u16).enumerate().collect();
-    let written: Vec<(usize, Glyph)> = glyphs.into_iter().filter(|(_, glyph)| is_text(glyph)).collect();
-    for run in written.chunk_by(|(_, a), (_, b)| a.pen == b.pen) {
-        let pen = run[0].1.pen;
-        let xs: Vec<String> = run.iter().flat_map(|(x, glyph)| positions(*x, glyph)).collect();
-        let text: String = run.iter().map(|(_, glyph)| glyph.text).collect();
-        let mut style = format!(r#" fill="{}""#, colors(&pen).0);
-        if pen.modifier.contains(Modifier::BOLD) {
-            style += r#" font-weight="bold""#;
-        }
-        if pen.modifier.contains(Modifier::ITALIC) {
-            style += r#" font-style="italic""#;
-        }
-        if pen.modifier.contains(Modifier::UNDERLINED) {
-            style += r#" text-decoration="underline""#;
-        }
-        let font = r#"font-family="ui-monospace,Menlo,Consolas,'DejaVu Sans Mono',monospace" font-size="16""#;
-        let (xs, text) = (xs.join(" "), escape(&text));
-        push_line(
-            svg,
-            &format!(r#"<text y="{}" x="{xs}" {font}{style} xml:space="preserve">{text}</text>"#, y * HEIGHT + 15),
-        );
+/// The words of a row, each at its own column and stretched to its columns, so that they stay aligned whatever the font.
+fn push_words(buffer: &Buffer, y: usize, svg: &mut String) {
+    let written: Vec<(usize, Glyph)> =
+        cells::row(buffer, y as u16).enumerate().filter(|(_, glyph)| is_text(glyph)).collect();
+    let together =
+        |(x, a): &(usize, Glyph), (next, b): &(usize, Glyph)| x + usize::from(a.width) == *next && a.pen == b.pen;
+    for word in written.chunk_by(together) {
+        let pen = word[0].1.pen;
+        let columns: usize = word.iter().map(|(_, glyph)| usize::from(glyph.width)).sum();
+        let text: String = word.iter().map(|(_, glyph)| glyph.text).collect();
+        let (x, y, length) = (word[0].0 * WIDTH, y * HEIGHT + 15, columns * WIDTH);
+        let style = text_style(&pen);
+        push_line(svg, &format!(r#"<text x="{x}" y="{y}" textLength="{length}"{style}>{}</text>"#, escape(&text)));
     }
 }
 
-/// The x of a glyph, px, once for each of its characters: the following ones of a cluster have no place of their own.
-fn positions(x: usize, glyph: &Glyph) -> Vec<String> {
-    vec![(x * WIDTH).to_string(); if glyph.is_simple() { 1 } else { glyph.text.chars().count() }]
+/// Colour and attributes of a text, as XML attributes.
+fn text_style(pen: &Pen) -> String {
+    let mut style = format!(r#" fill="{}""#, colors(pen).0);
+    for (attribute, xml) in [
+        (Modifier::BOLD, r#" font-weight="bold""#),
+        (Modifier::ITALIC, r#" font-style="italic""#),
+        (Modifier::UNDERLINED, r#" text-decoration="underline""#),
+        (Modifier::CROSSED_OUT, r#" text-decoration="line-through""#),
+    ] {
+        if pen.modifier.contains(attribute) {
+            style += xml;
+        }
+    }
+    style
 }
 
 /// Whether it is written, not drawn.
 fn is_text(glyph: &Glyph) -> bool {
-    !matches!(glyph.text.chars().next(), None | Some(' ' | '\u{2500}' | '\u{2501}' | '\u{2503}' | '\u{2578}' | '\u{2580}'..='\u{259F}' | '\u{2800}'..='\u{28FF}'))
+    !matches!(glyph.text.chars().next(), None | Some(' ' | '─' | '━' | '┃' | '┈' | '╸' | '\u{2580}'..='\u{259F}' | '\u{2800}'..='\u{28FF}'))
 }
 
 /// Draws dots, blocks and bars.
@@ -137,6 +140,7 @@ fn draw_shape(glyph: &Glyph, x: usize, y: usize, layer: &mut Layer) {
         '▐' => push_box(boxes, x, y, [4, 0, 4, 8]),
         '▖'..='▟' => push_quadrants(character, x, y, boxes),
         '─' => push_rule(boxes, [x * WIDTH, y * HEIGHT + 9, WIDTH, 1]),
+        '┈' => (0..WIDTH).step_by(3).for_each(|dx| push_rule(boxes, [x * WIDTH + dx, y * HEIGHT + 9, 1, 1])),
         '━' => push_rule(boxes, [x * WIDTH, y * HEIGHT + 8, WIDTH, 3]),
         '╸' => push_rule(boxes, [x * WIDTH, y * HEIGHT + 8, WIDTH / 2, 3]),
         '┃' => push_rule(boxes, [x * WIDTH + 4, y * HEIGHT, 3, HEIGHT]),

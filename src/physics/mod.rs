@@ -9,6 +9,7 @@ use glam::DVec3;
 
 pub mod contact;
 pub mod contact_time;
+mod exact;
 mod log;
 pub mod model;
 pub mod motion;
@@ -67,6 +68,7 @@ pub struct Description {
 pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
+        Method::Exact => &exact::DESCRIPTION,
     }
 }
 
@@ -100,6 +102,8 @@ trait Engine {
 enum Engines {
     /// The source paper's.
     Paper(paper::Paper),
+    /// Event by event.
+    Exact(exact::Exact),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -107,6 +111,7 @@ macro_rules! each {
     ($engines:expr, $engine:ident => $call:expr) => {
         match $engines {
             Engines::Paper($engine) => $call,
+            Engines::Exact($engine) => $call,
         }
     };
 }
@@ -115,6 +120,7 @@ impl Engines {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+            Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
         }
     }
 }

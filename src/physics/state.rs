@@ -55,6 +55,8 @@ pub struct Tallies {
     pub probes: u64,
     /// Deepest intersection degree at the end of any frame, dimensionless.
     pub deepest_degree: f64,
+    /// Time that `exact` spent in curved rest, which it integrates to 1e-12 instead of solving it, s.
+    pub inexact_time: f64,
 }
 
 /// Why a run cannot go on.

@@ -87,16 +87,19 @@ pub struct ContactLaw {
 pub enum Method {
     /// The source paper's: Euler frames, bisection, impulses over the next step.
     Paper,
+    /// Event-driven: parabolas between contacts whose times are computed; no time step.
+    Exact,
 }
 
 impl Method {
     /// Every method, in the order in which `m` cycles through them.
-    pub const ALL: &'static [Method] = &[Method::Paper];
+    pub const ALL: &'static [Method] = &[Method::Paper, Method::Exact];
 
     /// The word used in scene files, options and columns.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Paper => "paper",
+            Method::Exact => "exact",
         }
     }
 

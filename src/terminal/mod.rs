@@ -1,7 +1,7 @@
 //! Drives the application on a real terminal. The only place that names crossterm, termina, rustix or signal-hook.
 //!
 //! Threads: this one obeys inputs and draws; `input` reads the terminal; `signals` waits for signals; `writer` sends
-//! pictures; the application's worker simulates. All of them post [`Event`]s to this one and wait for nobody.
+//! pictures; the application's worker simulates. All of them post events to this one and wait for nobody.
 
 mod detect;
 mod drive;
@@ -17,8 +17,7 @@ pub use drive::run;
 
 use crate::{
     app::Input,
-    physics::Settings,
-    scene::Opened,
+    scene::{Opened, Settings},
     view::{Colors, Marker},
 };
 

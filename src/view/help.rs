@@ -10,30 +10,36 @@ use super::{
 /// Columns that a column of the table needs at least.
 const LEAST: u16 = 36;
 
-/// Columns for keys at most; longer ones go on in the next row, as do descriptions.
-const KEYS: usize = 11;
+/// Columns for keys, from and to; longer ones go on in the next row, as do descriptions.
+const KEYS: std::ops::RangeInclusive<u16> = 6..=18;
 
 /// A row of the table: a piece of the keys, a piece of what they do.
 type Row = (String, String);
 
+/// The table as laid out for its place.
+struct Table {
+    columns: Vec<Vec<Row>>,
+    /// Columns for the keys within each column of the table.
+    keys: u16,
+}
+
 /// Draws the table in the body, scrolled down by so many rows.
 pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &mut Sheet) {
-    let (head, table) = split(body);
-    if table.is_empty() {
+    let (head, place) = split(body);
+    if place.is_empty() {
         return;
     }
-    let keys = keys_width(entries);
-    let columns = columns(entries, keys, table);
-    let width = table.width / columns.len() as u16;
-    let height = usize::from(table.height);
-    let limit = hidden(&columns, table);
+    let table = Table::new(entries, place);
+    let width = place.width / table.columns.len() as u16;
+    let height = usize::from(place.height);
+    let limit = table.rows().saturating_sub(height);
     let scroll = scroll.min(limit);
     draw_head(scroll, limit - scroll, head, sheet);
-    for (i, column) in columns.iter().enumerate() {
-        let mut rest = split_left(split_left(table, i as u16 * width).1, width).0;
+    for (i, column) in table.columns.iter().enumerate() {
+        let mut rest = split_left(split_left(place, i as u16 * width).1, width).0;
         for row in column.iter().skip(scroll).take(height) {
             let (line, below) = split_top(rest, 1);
-            draw_row(row, keys, line, sheet);
+            draw_row(row, table.keys, line, sheet);
             rest = below;
         }
     }
@@ -41,8 +47,8 @@ pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &
 
 /// How many rows the table in the body can be scrolled down.
 pub(super) fn scroll_limit(entries: &[(&str, &str)], body: Rect) -> usize {
-    let (_, table) = split(body);
-    if table.is_empty() { 0 } else { hidden(&columns(entries, keys_width(entries), table), table) }
+    let (_, place) = split(body);
+    if place.is_empty() { 0 } else { Table::new(entries, place).rows().saturating_sub(place.height.into()) }
 }
 
 /// (heading, table).
@@ -50,24 +56,31 @@ fn split(body: Rect) -> (Rect, Rect) {
     split_top(body, u16::from(body.height > 2))
 }
 
-fn keys_width(entries: &[(&str, &str)]) -> u16 {
-    entries.iter().map(|(keys, _)| sheet::width(keys)).max().unwrap_or(0).min(KEYS) as u16
+impl Table {
+    /// As few columns as show everything at once, and never more than fit side by side.
+    fn new(entries: &[(&str, &str)], place: Rect) -> Table {
+        let most = (place.width / LEAST).max(1);
+        let fits = |table: &Table| table.rows() <= place.height.into();
+        let table = |count| Table::shortest(entries, count, place);
+        (1..most).map(table).find(fits).unwrap_or_else(|| table(most))
+    }
+
+    /// The table of so many columns, its room shared between keys and descriptions so that it has the fewest rows.
+    fn shortest(entries: &[(&str, &str)], count: u16, place: Rect) -> Table {
+        let widest = entries.iter().map(|(keys, _)| sheet::width(keys)).max().unwrap_or(0);
+        let longest = widest.clamp((*KEYS.start()).into(), (*KEYS.end()).into()) as u16;
+        let shared = |keys| Table { columns: fill(entries, keys, count, place), keys };
+        // The widest first, which wins a tie: keys that stay whole are easier to read.
+        let all = (*KEYS.start()..=longest).rev().map(shared);
+        all.min_by_key(Table::rows).unwrap_or_else(|| shared(longest))
+    }
+
+    fn rows(&self) -> usize {
+        self.columns.iter().map(Vec::len).max().unwrap_or(0)
+    }
 }
 
-/// Rows that do not fit.
-fn hidden(columns: &[Vec<Row>], table: Rect) -> usize {
-    columns.iter().map(Vec::len).max().unwrap_or(0).saturating_sub(table.height.into())
-}
-
-/// As few columns as show everything at once, and never more than fit side by side; entries stay whole.
-fn columns(entries: &[(&str, &str)], keys: u16, table: Rect) -> Vec<Vec<Row>> {
-    let most = (table.width / LEAST).max(1);
-    let split = |count: u16| fill(entries, keys, count, table);
-    let fits = |columns: &Vec<Vec<Row>>| columns.iter().all(|column| column.len() <= table.height.into());
-    (1..most).map(split).find(fits).unwrap_or_else(|| split(most))
-}
-
-/// The entries over `count` columns of about the same height.
+/// The entries over `count` columns of about the same height; each stays whole.
 fn fill(entries: &[(&str, &str)], keys: u16, count: u16, table: Rect) -> Vec<Vec<Row>> {
     let does = (table.width / count).saturating_sub(keys + 4);
     let blocks: Vec<Vec<Row>> = entries.iter().map(|entry| block(entry, keys, does)).collect();

@@ -164,7 +164,7 @@ fn draw_legend(column: &mut Column) {
     let (faint, arrow) = (column.sheet().palette.faint(), column.sheet().glyphs.arrow);
     let bodies = column.width().saturating_sub(CLASS + DEGREE);
     column.row(&format!("{:<bodies$}{:<CLASS$}{:>DEGREE$}", "bodies", "class", "degree"), faint);
-    column.row(&format!("{:>7}{arrow}{:>6} m/s{:>10}", "before", "after", "impulse Ns"), faint);
+    column.row(&format!("{:>7}{arrow}{:<9}{:>11}", "before", "after m/s", "impulse Ns"), faint);
 }
 
 /// Columns for a contact's class.

@@ -71,3 +71,42 @@ pub(super) fn round_down(limit: f64) -> f64 {
     let candidates = [5, 2, 1].map(|digit| format!("{digit}e{power}").parse::<f64>().unwrap_or(1.0));
     candidates.into_iter().find(|value| *value <= limit).unwrap_or(limit)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_take_their_shortest_form() {
+        let texts = [1e-3, 0.01, 2.5e-4, 0.25, 1.0, 20.0, 0.0, 1.0 / 3.0 * 1e-2, 1e6, 1e-9, -0.5].map(short);
+        assert_eq!(texts, ["1e-3", "1e-2", "2.5e-4", "0.25", "1", "20", "0", "3.333e-3", "1e6", "1e-9", "-0.5"]);
+    }
+
+    #[test]
+    fn a_decimal_keeps_its_width_and_turns_scientific_where_it_would_not_fit_or_show_nothing() {
+        let texts = [1.5, -2.25, 0.0, -0.0, 1e-7, 123_456.0, -1e-300, f64::NAN].map(|value| decimal(value, 9, 4));
+        let expected =
+            ["   1.5000", "  -2.2500", "   0.0000", "   0.0000", "  1.00e-7", "   1.23e5", "-1.0e-300", "      NaN"];
+        assert_eq!(texts, expected);
+    }
+
+    #[test]
+    fn the_clock_shows_a_digit_more_than_dt_and_does_not_widen_up_to_the_duration() {
+        assert_eq!(clock(3.5, 20.0, 0.01), " 3.500");
+        assert_eq!(clock(20.0, 20.0, 0.01), "20.000");
+        assert_eq!(clock(3.5, 20.0, 1e-5), " 3.500000");
+        assert_eq!(clock(0.0, 100.0, 0.3), "  0.000");
+    }
+
+    #[test]
+    fn counts_are_read_by_thousands() {
+        assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1 000", "1 234 567"]);
+    }
+
+    #[test]
+    fn a_round_length_is_one_two_or_five_times_a_power_of_ten() {
+        let rounded = [0.9, 1.0, 1.99, 2.0, 4.9, 5.0, 9.99, 10.0, 3e-7].map(round_down);
+        assert_eq!(rounded, [0.5, 1.0, 1.0, 2.0, 2.0, 5.0, 5.0, 10.0, 2e-7]);
+        assert_eq!([f64::NAN, 0.0, -3.0, f64::INFINITY].map(round_down), [1.0; 4]);
+    }
+}

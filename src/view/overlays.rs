@@ -39,8 +39,8 @@ pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// The simulated time that the velocity arrows stand for, s: an arrow ends where its sphere would be after so long
-/// without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of the width, so
+/// The simulated time that the velocity arrows stand for, s: an arrow goes from the sphere's rim to where that point
+/// would be after so long without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of the width, so
 /// that arrows of different frames can be compared; `None` if nothing moves.
 pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
     let squares = view.screen.snapshot.v.iter().map(|v| v.length_squared()).filter(|square| square.is_finite());
@@ -53,9 +53,12 @@ fn draw_velocities(view: &mut View, sheet: &Sheet) {
     let Some(seconds) = arrow_seconds(view) else { return };
     let ink = Ink::new(Layer::Arrow, sheet.palette.velocity());
     let snapshot = view.screen.snapshot;
-    for (x, v) in snapshot.x.iter().zip(&snapshot.v) {
-        let (tail, tip) = (view.project(*x), view.project(*x + *v * seconds));
-        draw_arrow(view, tail, tip, ink);
+    for ((x, v), radius) in snapshot.x.iter().zip(&snapshot.v).zip(&snapshot.stage.radii) {
+        let rim = *x + v.normalize_or_zero() * *radius;
+        let (tail, tip) = (view.project(rim), view.project(rim + *v * seconds));
+        if tail != tip {
+            draw_arrow(view, tail, tip, ink);
+        }
     }
 }
 
@@ -109,7 +112,7 @@ fn draw_number(view: &mut View, sphere: usize, sheet: &Sheet) {
     let (x, y) = if r > f64::from(half) + 2.5 {
         (x - half + 1, y)
     } else {
-        let aside = r.min(f64::from(view.canvas.width())) + if selected { 4.0 } else { 1.0 };
+        let aside = r.clamp(0.0, f64::from(view.canvas.width())) + if selected { 4.0 } else { 1.0 };
         (x + (aside * 0.8) as i32 + 1, y - (aside * 0.8) as i32 - 1)
     };
     view.canvas.text(x, y, &text, Ink::new(layer, sheet.palette.strong()));

@@ -145,3 +145,34 @@ fn cube(r: f64, g: f64, b: f64) -> u8 {
         (16 + 36 * i + 6 * j + k) as u8
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clear_hue_becomes_the_terminals_own_and_a_grey_none() {
+        let cases = [
+            ([0.63, 0.065, 0.05], Some(Color::Red)),
+            ([0.14, 0.45, 0.091], Some(Color::Green)),
+            ([0.1, 0.2, 0.9], Some(Color::LightBlue)),
+            ([0.9, 0.8, 0.1], Some(Color::Yellow)),
+            ([0.725, 0.71, 0.68], None),
+            ([0.0, 0.0, 0.0], None),
+            ([f64::NAN, 0.0, 1.0], None),
+        ];
+        for (rgb, color) in cases {
+            assert_eq!(Palette::new(Colors::Ansi16).own(rgb), color, "{rgb:?}");
+        }
+    }
+
+    #[test]
+    fn the_256_colours_are_met_where_the_cube_and_the_greys_have_them() {
+        // xterm's table: 16 + 36 r + 6 g + b for the levels 0, 95, 135, 175, 215, 255; 232 + i is the grey 8 + 10 i.
+        let level = |n: f64| n / 255.0;
+        assert_eq!(cube(1.0, 0.0, 0.0), 196);
+        assert_eq!(cube(level(95.0), level(135.0), level(175.0)), 16 + 36 + 12 + 3);
+        assert_eq!(cube(level(118.0), level(118.0), level(118.0)), 232 + 11);
+        assert_eq!((cube(0.0, 0.0, 0.0), cube(1.0, 1.0, 1.0)), (16, 231));
+    }
+}

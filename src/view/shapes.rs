@@ -13,12 +13,21 @@ pub(super) type Dots = (f64, f64);
 pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, ink: Ink) {
     let Some((a, b)) = clip(canvas, a, b) else { return };
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-    let steps = dx.abs().max(dy.abs()).round().max(1.0);
-    let (step_x, step_y) = (dx / steps, dy / steps);
-    for i in 0..=steps as i32 {
-        let i = f64::from(i);
-        canvas.dot((a.0 + i * step_x).round() as i32, (a.1 + i * step_y).round() as i32, ink);
+    let slope = |rise: f64, run: f64| if run == 0.0 { 0.0 } else { rise / run };
+    if dx.abs() >= dy.abs() {
+        for x in between(a.0, b.0) {
+            canvas.dot(x, (a.1 + (f64::from(x) - a.0) * slope(dy, dx)).round() as i32, ink);
+        }
+    } else {
+        for y in between(a.1, b.1) {
+            canvas.dot((a.0 + (f64::from(y) - a.1) * slope(dx, dy)).round() as i32, y, ink);
+        }
     }
+}
+
+/// From the dot nearest to one coordinate to the dot nearest to another.
+fn between(a: f64, b: f64) -> std::ops::RangeInclusive<i32> {
+    a.min(b).round() as i32..=a.max(b).round() as i32
 }
 
 /// The part of a line that is on the canvas, half a dot of rim included (Liang and Barsky 1984).
@@ -49,7 +58,8 @@ pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
     if !meets(canvas, c, r) {
         return;
     }
-    let h = r * FRAC_1_SQRT_2;
+    // Half a dot more than the eighth of the circle, so that steep and flat parts meet without a hole.
+    let h = r * FRAC_1_SQRT_2 + 0.5;
     for y in range(c.1 - h, c.1 + h, canvas.height()) {
         let half = half_chord(r, f64::from(y) - c.1);
         canvas.dot((c.0 - half).round() as i32, y, ink);

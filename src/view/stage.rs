@@ -18,7 +18,7 @@ use crate::snapshot::{Class, Kind, Snapshot};
 const TINY: f64 = 1.5;
 
 /// Up to this radius, dots, a colliding sphere is filled; larger ones are hatched, so that labels in them stay legible.
-const FILLED: f64 = 12.0;
+const FILLED: f64 = 6.0;
 
 /// Rows from one line of the hatching to the next, dots: one line a cell.
 const HATCH: i32 = 4;

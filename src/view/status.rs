@@ -4,7 +4,7 @@ use ratatui::{layout::Rect, style::Style};
 
 use super::{
     Mode, Screen,
-    layout::{split_left, split_top},
+    layout::{split_left, split_right, split_top},
     numbers,
     sheet::{self, Sheet},
 };
@@ -37,6 +37,7 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (word, style) = badge(screen.pace.mode, sheet);
     let used = sheet.put(area, &format!("{word:^7}"), style);
     let (_, area) = split_left(area, used + 1);
+    let (area, _) = split_right(area, 1);
     let key = &screen.snapshot.stage.key;
     let mut room = usize::from(area.width).saturating_sub(sheet::width(key).min(NAME));
     let mut fields = fields(screen, sheet);
@@ -121,6 +122,7 @@ pub(super) fn draw_stall(screen: &Screen, body: Rect, sheet: &mut Sheet) {
     let (_, mut rest) = split_top(body, u16::from(body.height > 4)); // the views' labels stay
     for line in sheet::wrap(reason, body.width.saturating_sub(2)) {
         let (row, below) = split_top(rest, 1);
+        sheet.clear(row); // or attributes of what was drawn there would show through
         sheet.put(row, &" ".repeat(row.width.into()), style);
         sheet.put(split_left(row, 1).1, &line, style);
         rest = below;

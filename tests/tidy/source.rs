@@ -15,6 +15,8 @@ pub(crate) struct File {
     /// Its text.
     pub(crate) text: String,
     syntax: syn::File,
+    /// Declared under `#[cfg(test)]`.
+    only_tests: bool,
 }
 
 /// A path in the code (`use` trees flattened), and where it stands.
@@ -71,7 +73,13 @@ pub(crate) fn files(folder: &str) -> Vec<File> {
     let mut paths = Vec::new();
     collect(&home().join(folder), &mut paths);
     paths.sort();
-    paths.iter().map(|path| File::read(path)).collect()
+    let mut files: Vec<File> = paths.iter().map(|path| File::read(path)).collect();
+    let tests: Vec<Vec<String>> = files.iter().flat_map(File::test_modules).collect();
+    for file in &mut files {
+        let module = file.module();
+        file.only_tests = tests.iter().any(|test| module.starts_with(test));
+    }
+    files
 }
 
 fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -95,7 +103,7 @@ impl File {
     /// A file of that path and text, which may be made up.
     pub(crate) fn new(path: &str, text: &str) -> File {
         let syntax = syn::parse_file(text).unwrap_or_else(|error| panic!("{path}: {error}"));
-        File { path: path.into(), text: text.into(), syntax }
+        File { path: path.into(), text: text.into(), syntax, only_tests: false }
     }
 
     /// Its module path in the crate: `src/physics/paper/mod.rs` is physics, paper; `src/lib.rs` nothing.
@@ -108,7 +116,21 @@ impl File {
     pub(crate) fn contents(&self) -> Contents {
         let mut reader = Reader { scope: self.module(), children: self.children(), contents: Contents::default() };
         reader.visit_file(&self.syntax);
-        reader.contents
+        match self.only_tests {
+            true => Contents { functions: reader.contents.functions, ..Contents::default() },
+            false => reader.contents,
+        }
+    }
+
+    /// The modules in other files that it declares for tests only.
+    fn test_modules(&self) -> Vec<Vec<String>> {
+        let declared = self.syntax.items.iter().filter_map(|item| match item {
+            syn::Item::Mod(module) if module.content.is_none() && only_in_tests(&module.attrs) => {
+                Some([self.module(), vec![module.ident.to_string()]].concat())
+            }
+            _ => None,
+        });
+        declared.collect()
     }
 
     /// The modules declared in it: `contact::Contact` in `physics/mod.rs` is ours.
@@ -159,7 +181,6 @@ impl Reader {
                 self.name(&all, glob.star_token.span().start().line);
             }
             syn::UseTree::Group(group) => group.items.iter().for_each(|tree| self.use_tree(tree, before)),
-            _ => panic!("a kind of `use` that this test does not know"),
         }
     }
 

@@ -49,6 +49,19 @@ pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Found {
     Found { u: set.velocities(), multipliers: set.forces(), passes, slack: set.slack }
 }
 
+/// The projection of u₀ onto {gⱼ·u + cⱼ = 0} for all rows, both ways: these contacts may pull. Dependent rows are left
+/// to those that they depend on.
+pub(super) fn bind(problem: &Problem) -> Found {
+    let mut set = ActiveSet::new(problem, &[]);
+    for row in 0..problem.rows.len() {
+        set.append(row, DEPENDENT);
+    }
+    for (&row, load) in set.holding.clone().iter().zip(set.project()) {
+        set.loads[row] = load;
+    }
+    Found { u: set.velocities(), multipliers: set.forces(), passes: 1, slack: set.slack }
+}
+
 /// The contacts that hold, and the factor of their columns.
 struct ActiveSet<'a> {
     problem: &'a Problem,

@@ -1,0 +1,237 @@
+//! Every command, option and range, as clap reads and explains them.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+
+use super::numbers;
+use super::output::Target;
+use crate::physics::{Method, Settings};
+use crate::view::{Colors, Marker};
+
+const AFTER: &str = "\
+Results go to standard output, everything else to standard error.
+Exit status: 0 done, 1 failed, 2 wrong usage, 128 + n ended by signal n.";
+
+/// Rigid spheres bouncing between parallelogram walls and each other: how much accuracy for how much time?
+#[derive(Debug, Parser)]
+#[command(name = "carom", version, about, after_help = AFTER, args_conflicts_with_subcommands = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) play: Play,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// List the built-in scenes
+    List,
+    /// Print a built-in scene's file, to start one's own from
+    Show(Show),
+    /// Tell what each method is, its order, and when not to use it
+    Methods(Methods),
+    /// Validate scenes, and say what each requires
+    Check(Check),
+    /// Run a scene without a screen
+    Run(Run),
+    /// Print one frame of the screen
+    Render(Render),
+    /// Print the completions for a shell
+    Completions(Completions),
+    /// Print the manual page
+    Man,
+}
+
+/// The TUI.
+#[derive(Debug, Args)]
+pub(super) struct Play {
+    /// Scene file or built-in name; without one, the first built-in scene
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) scene: Option<String>,
+    #[command(flatten)]
+    pub(super) solver: Solver,
+    /// Start paused
+    #[arg(long)]
+    pub(super) paused: bool,
+    #[command(flatten)]
+    pub(super) display: Display,
+    /// Tell the run in lines, one per event, without a screen
+    #[arg(long)]
+    pub(super) text: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Show {
+    /// Name of a built-in scene
+    pub(super) name: String,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Methods {
+    /// Only this one, in full
+    #[arg(value_parser = method())]
+    pub(super) method: Option<Method>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Check {
+    /// Scene files or built-in names
+    #[arg(required = true, value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub(super) scenes: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    /// Scene file or built-in name
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) scene: String,
+    /// End of the run, s [default: the scene's duration]
+    #[arg(long, value_name = "T", value_parser = numbers::not_negative, allow_hyphen_values = true)]
+    pub(super) until: Option<f64>,
+    /// Time between two states, s [default: only the first and the last state]
+    #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) every: Option<f64>,
+    /// Write times, positions and velocities; JSON lines if it ends in .jsonl, else CSV; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    pub(super) states: Option<Target>,
+    /// Write collisions, rests and releases, likewise
+    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    pub(super) events: Option<Target>,
+    #[command(flatten)]
+    pub(super) solver: Solver,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Render {
+    /// Scene file or built-in name
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) scene: String,
+    /// Time of the frame, s
+    #[arg(long, value_name = "T", default_value = "0", value_parser = numbers::not_negative, allow_hyphen_values = true)]
+    pub(super) at: f64,
+    /// Columns and rows
+    #[arg(long, value_name = "WxH", default_value = "80x24", value_parser = numbers::size)]
+    pub(super) size: (u16, u16),
+    /// What to print it as
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(super) format: Format,
+    #[command(flatten)]
+    pub(super) solver: Solver,
+    #[command(flatten)]
+    pub(super) display: Display,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub(super) shell: Shell,
+}
+
+/// What to solve with, where it shall not be what the scene asks for.
+#[derive(Debug, Args)]
+pub(super) struct Solver {
+    /// Method [default: the scene's]
+    #[arg(long, value_name = "M", value_parser = method())]
+    method: Option<Method>,
+    /// Longest step, s [default: the scene's]
+    #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
+    dt: Option<f64>,
+    /// Intersection tolerance, a degree [default: the scene's]
+    #[arg(long, value_name = "D", value_parser = numbers::not_negative, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+}
+
+impl Solver {
+    /// The scene's settings, but for what the command line says.
+    pub(super) fn over(&self, scene: Settings) -> Settings {
+        Settings {
+            method: self.method.unwrap_or(scene.method),
+            dt: self.dt.unwrap_or(scene.dt),
+            tolerance: self.tolerance.unwrap_or(scene.tolerance),
+        }
+    }
+}
+
+/// How frames look.
+#[derive(Debug, Args)]
+pub(super) struct Display {
+    /// What dots are drawn with [default: what the terminal can show]
+    #[arg(long, value_enum, value_name = "MARKER")]
+    pub(super) marker: Option<Dots>,
+    /// Depth of colour
+    #[arg(long, value_enum, value_name = "COLORS", default_value_t = Color::Auto)]
+    pub(super) color: Color,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Dots {
+    /// 2×4 dots a cell
+    Braille,
+    /// 2×2 quadrants a cell
+    Block,
+    /// Plain ASCII
+    Ascii,
+}
+
+impl From<Dots> for Marker {
+    fn from(dots: Dots) -> Marker {
+        match dots {
+            Dots::Braille => Marker::Braille,
+            Dots::Block => Marker::Block,
+            Dots::Ascii => Marker::Ascii,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Color {
+    /// What the terminal can show
+    Auto,
+    /// None
+    Never,
+    /// The terminal's own 16
+    #[value(name = "16")]
+    Ansi16,
+    /// The 256-colour cube
+    #[value(name = "256")]
+    Ansi256,
+    /// 24 bits
+    Rgb,
+}
+
+impl Color {
+    /// None: what the terminal can show.
+    pub(super) fn depth(self) -> Option<Colors> {
+        match self {
+            Color::Auto => None,
+            Color::Never => Some(Colors::Never),
+            Color::Ansi16 => Some(Colors::Ansi16),
+            Color::Ansi256 => Some(Colors::Ansi256),
+            Color::Rgb => Some(Colors::Rgb),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// Characters alone
+    Text,
+    /// Characters and colours, for a terminal
+    Ansi,
+    /// A picture
+    Svg,
+}
+
+fn method() -> impl TypedValueParser<Value = Method> {
+    let names = PossibleValuesParser::new(Method::ALL.iter().map(|method| method.name()));
+    names.try_map(|name| Method::from_name(&name).ok_or("no such method"))
+}
+
+fn target(word: &str) -> Result<Target, String> {
+    match word {
+        "" => Err("must name a file, or be - for standard output".into()),
+        word => Ok(Target::from(word)),
+    }
+}

@@ -1,0 +1,69 @@
+//! The command line: arguments turned into plain values, and which wing runs.
+//!
+//! | file | owns |
+//! |---|---|
+//! | `arguments` | every command, option and range, as clap reads and explains them |
+//! | `numbers` | the ranges of the numbers, and their messages |
+//! | `failure` | how a command can end, its exit code and its one line |
+//! | `signals` | INT, TERM and HUP as exit codes |
+//! | `output` | standard output and files that are replaced as a whole |
+//! | the rest | one command each |
+
+mod arguments;
+mod check;
+mod completions;
+mod failure;
+mod list;
+mod man;
+mod methods;
+mod numbers;
+mod output;
+mod play;
+mod render;
+mod run;
+mod show;
+mod signals;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use arguments::{Arguments, Command};
+use failure::Failure;
+use signals::Signals;
+
+/// Runs the program; the exit code is 0 done, 1 failed, 2 wrong usage, 128 + n for signal n.
+pub fn main() -> ExitCode {
+    let done = parse(std::env::args_os()).and_then(|arguments| dispatch(&arguments));
+    done.map_or_else(|failure| failure.report(), |()| ExitCode::SUCCESS)
+}
+
+/// The whole command line as clap sees it: what completions, the manual page and the test of the README read.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
+
+fn parse(words: impl IntoIterator<Item = OsString>) -> Result<Arguments, Failure> {
+    Arguments::try_parse_from(words).map_err(Failure::Clap)
+}
+
+fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.command {
+        None => play::play(&arguments.play),
+        Some(command) => without_screen(command, &Signals::watch()?),
+    }
+}
+
+fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
+    match command {
+        Command::List => list::list(),
+        Command::Show(arguments) => show::show(arguments),
+        Command::Methods(arguments) => methods::methods(arguments),
+        Command::Check(arguments) => check::check(arguments),
+        Command::Run(arguments) => run::run(arguments, signals),
+        Command::Render(arguments) => render::render(arguments, signals),
+        Command::Completions(arguments) => completions::completions(arguments),
+        Command::Man => man::man(),
+    }
+}

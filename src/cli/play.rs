@@ -1,0 +1,48 @@
+//! `carom [SCENE]`: the TUI, or the run told in lines.
+
+use std::io::{self, IsTerminal};
+
+use super::arguments::Play;
+use super::failure::Failure;
+use super::output::Output;
+use super::signals::Signals;
+use crate::scene::{self, Opened, Settings, builtin};
+use crate::terminal::{self, Options, Outcome};
+use crate::text_mode::{self, Ending};
+
+pub(super) fn play(arguments: &Play) -> Result<(), Failure> {
+    let text = arguments.text || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if !text && !io::stdout().is_terminal() {
+        return Err(Failure::Usage(terminal::Error::NoTerminal.to_string())); // before a scene is read for nothing
+    }
+    let name = arguments.scene.as_deref().unwrap_or(builtin::ALL[0].name);
+    let opened = scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
+    let settings = arguments.solver.over(opened.scene.solver);
+    if text { tell(&opened, settings) } else { show(arguments, opened, settings) }
+}
+
+fn tell(opened: &Opened, settings: Settings) -> Result<(), Failure> {
+    let signals = Signals::watch()?;
+    let mut out = Output::stdout();
+    match text_mode::tell(&opened.scene, settings, &mut out, || signals.check().is_ok())? {
+        Ending::Done => out.finish(),
+        Ending::Stalled(stall) => out.finish().and(Err(Failure::Failed(stall.reason))),
+        Ending::Stopped => signals.check(),
+    }
+}
+
+fn show(arguments: &Play, opened: Opened, settings: Settings) -> Result<(), Failure> {
+    let options = Options {
+        opened,
+        settings,
+        paused: arguments.paused,
+        marker: arguments.display.marker.map(Into::into),
+        color: arguments.display.color.depth(),
+    };
+    match terminal::run(options) {
+        Ok(Outcome::Quit) => Ok(()),
+        Ok(Outcome::Signal(number)) => Err(Failure::Signal(u8::try_from(number).unwrap_or(u8::MAX))),
+        Err(error @ terminal::Error::NoTerminal) => Err(Failure::Usage(error.to_string())),
+        Err(error) => Err(Failure::Failed(error.to_string())),
+    }
+}

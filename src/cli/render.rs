@@ -1,0 +1,110 @@
+//! `carom render SCENE`: one frame of the TUI's own screen. Nothing of it depends on the terminal that runs it.
+
+use std::io::Write;
+use std::sync::Arc;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::arguments::{Display, Format, Render};
+use super::failure::Failure;
+use super::output::Output;
+use super::signals::Signals;
+use crate::physics::{Class, Progress, Simulation, Stall, Until};
+use crate::scene::{self, Opened, Settings};
+use crate::snapshot::{Snapshot, Stage, Ticks};
+use crate::view::{self, Look, Mode, Pace, Popup, Screen};
+use crate::{app, frame};
+
+/// Units of work between two looks at signals: some milliseconds. No bit of a frame depends on it.
+const SLICE: u64 = 20_000;
+
+pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failure> {
+    let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
+    let settings = arguments.solver.over(opened.scene.solver);
+    let shown = reach(&opened, settings, arguments.at, signals)?;
+    let buffer = draw(&shown, &look(&arguments.display), arguments.size);
+    let bytes = match arguments.format {
+        Format::Text => frame::text(&buffer),
+        Format::Ansi => frame::ansi(&buffer),
+        Format::Svg => frame::svg(&buffer),
+    };
+    let mut out = Output::stdout();
+    out.write_all(bytes.as_bytes())?;
+    out.finish()?;
+    shown.stall.map_or(Ok(()), |stall| Err(Failure::Failed(stall.reason)))
+}
+
+/// A run at the time that was asked for, or where it could not go on.
+struct Shown {
+    snapshot: Snapshot,
+    ticks: Ticks,
+    stall: Option<Stall>,
+}
+
+fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Result<Shown, Failure> {
+    let mut simulation = Simulation::new(&opened.scene, settings);
+    simulation.record_events(true);
+    let (mut ticks, mut stall) = (Ticks::new(opened.scene.duration), None);
+    let mut impacts = count(&mut simulation, at, &mut ticks);
+    while simulation.time() < at && stall.is_none() {
+        if let Progress::Stalled(why) = simulation.advance(Until::Time(at), SLICE) {
+            stall = Some(why);
+        }
+        impacts += count(&mut simulation, at, &mut ticks);
+        signals.check()?;
+    }
+    let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
+    let whole = Snapshot::of(&stage, &simulation, stall.as_ref());
+    Ok(Shown { snapshot: cut(whole, &simulation, at, impacts), ticks, stall })
+}
+
+/// Impacts since the last call, as far as the frame shows them.
+fn count(simulation: &mut Simulation, at: f64, ticks: &mut Ticks) -> u64 {
+    let events = simulation.take_events();
+    let impacts = events.iter().filter(|event| event.class == Class::Collide && event.time <= at);
+    impacts.map(|event| ticks.add(event.time)).count() as u64
+}
+
+/// The run within its last frame: a copy, reached by a shortened step. What the frame found at its end is yet to come.
+fn cut(whole: Snapshot, simulation: &Simulation, at: f64, impacts: u64) -> Snapshot {
+    if whole.t <= at {
+        return whole;
+    }
+    let state = simulation.at(at);
+    let energy = state.energy(simulation.model());
+    let mut cut = Snapshot { t: state.t, energy, x: state.x, v: state.v, ..whole };
+    cut.step -= whole.t - at;
+    cut.contacts.retain(|contact| contact.time <= at);
+    cut.probes.clear();
+    cut.tallies.impacts = impacts;
+    cut
+}
+
+fn look(display: &Display) -> Look {
+    let ordinary = Look::default();
+    Look {
+        colors: display.color.depth().unwrap_or(ordinary.colors),
+        marker: display.marker.map_or(ordinary.marker, Into::into),
+        ..ordinary
+    }
+}
+
+fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
+    let area = Rect::new(0, 0, columns, rows);
+    let mut buffer = Buffer::empty(area);
+    let mode = if shown.stall.is_some() { Mode::Stalled } else { Mode::Pause };
+    let hints = app::hints();
+    let hints: Vec<(&str, &str)> = hints.iter().map(|(keys, word)| (keys.as_str(), *word)).collect();
+    let screen = Screen {
+        snapshot: &shown.snapshot,
+        pace: Pace { mode, wanted: 1.0, reached: None },
+        ticks: &shown.ticks,
+        look,
+        popup: Popup::None,
+        message: None,
+        hints: &hints,
+    };
+    view::draw(&screen, area, &mut buffer);
+    buffer
+}

@@ -1,0 +1,179 @@
+//! `carom run`: a run without a screen. Rows go out as they come, so a long run takes no more memory than a short one.
+
+use std::io::{IsTerminal, Write};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::arguments::Run;
+use super::failure::{Failure, note};
+use super::output::{Output, Target};
+use super::signals::Signals;
+use crate::export::{EventRow, Format, Row, StateRow, Table};
+use crate::physics::{Class, Progress, Simulation, Stall, State, Until};
+use crate::scene;
+
+/// Units of work between two looks at signals and progress: some milliseconds. No bit of a result depends on it.
+pub(super) const SLICE: u64 = 20_000;
+
+/// Steps of the progress bar: finer than any terminal shows.
+const STEPS: f64 = 1000.0;
+
+pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
+    refuse_same_target(arguments)?;
+    let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
+    let settings = arguments.solver.over(opened.scene.solver);
+    let mut recorder = Recorder {
+        simulation: Simulation::new(&opened.scene, settings),
+        until: arguments.until.unwrap_or(opened.scene.duration),
+        states: table::<StateRow>(arguments.states.as_ref())?,
+        events: table::<EventRow>(arguments.events.as_ref())?,
+        impacts: 0,
+        signals,
+        progress: progress_bar(),
+    };
+    recorder.simulation.record_events(true);
+    let stall = recorder.record(arguments.every)?;
+    let on_stdout = [&arguments.states, &arguments.events].iter().all(|file| **file != Some(Target::Stdout));
+    recorder.close(stall, on_stdout)
+}
+
+/// Both into one stream would be a file that nobody can read.
+fn refuse_same_target(arguments: &Run) -> Result<(), Failure> {
+    let (Some(states), Some(events)) = (&arguments.states, &arguments.events) else { return Ok(()) };
+    if states.place()? != events.place()? {
+        return Ok(());
+    }
+    let name = if *states == Target::Stdout { "standard output" } else { "the same file" };
+    Err(Failure::Usage(format!("--states and --events cannot both go to {name}; give each its own")))
+}
+
+fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failure> {
+    let Some(target) = target else { return Ok(None) };
+    let format = match target {
+        Target::Stdout => Format::Csv,
+        Target::File(path) => Format::of(&path.to_string_lossy()),
+    };
+    Ok(Some(Table::new::<R>(format, Output::open(target)?)?))
+}
+
+/// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
+fn progress_bar() -> ProgressBar {
+    let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
+    if dumb || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed} elapsed, {eta} to go");
+    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), ProgressDrawTarget::stderr());
+    style.map(|style| bar.clone().with_style(style)).unwrap_or(bar)
+}
+
+/// A run being written down.
+struct Recorder<'a> {
+    simulation: Simulation,
+    until: f64,
+    states: Option<Table<Output>>,
+    events: Option<Table<Output>>,
+    impacts: u64,
+    signals: &'a Signals,
+    progress: ProgressBar,
+}
+
+impl Recorder<'_> {
+    /// Runs to the end, or to where the run cannot go on.
+    fn record(&mut self, every: Option<f64>) -> Result<Option<Stall>, Failure> {
+        for time in sample_times(self.until, every) {
+            self.signals.check()?;
+            if let Some(stall) = self.reach(time)? {
+                self.write_states(&self.simulation.state())?;
+                return Ok(Some(stall));
+            }
+            if self.states.is_some() {
+                self.write_states(&self.simulation.at(time))?;
+            }
+        }
+        Ok(None)
+    }
+
+    /// Advances until a frame holds `time`, slice by slice.
+    fn reach(&mut self, time: f64) -> Result<Option<Stall>, Failure> {
+        while self.simulation.time() < time {
+            let progress = self.simulation.advance(Until::Time(time), SLICE);
+            self.write_events()?;
+            self.signals.check()?;
+            self.progress.set_position((self.simulation.time() / self.until * STEPS) as u64);
+            if let Progress::Stalled(stall) = progress {
+                return Ok(Some(stall));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The last frame may reach beyond the end of the run: what happens there belongs to no row.
+    fn write_events(&mut self) -> Result<(), Failure> {
+        for event in self.simulation.take_events().iter().filter(|event| event.time <= self.until) {
+            self.impacts += u64::from(event.class == Class::Collide);
+            if let Some(table) = &mut self.events {
+                table.write(&EventRow::from(event))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_states(&mut self, state: &State) -> Result<(), Failure> {
+        let Some(table) = &mut self.states else { return Ok(()) };
+        StateRow::all(state).try_for_each(|row| table.write(&row)).map_err(Failure::from)
+    }
+
+    /// Puts the files in their places and says how the run ended.
+    fn close(self, stall: Option<Stall>, on_stdout: bool) -> Result<(), Failure> {
+        self.progress.finish_and_clear();
+        let end = if stall.is_some() { self.simulation.state() } else { self.simulation.at(self.until) };
+        let line = closing_line(&end, self.impacts, end.energy(self.simulation.model()), stall.as_ref());
+        for table in [self.states, self.events].into_iter().flatten() {
+            table.finish()?.finish()?;
+        }
+        if on_stdout {
+            let mut out = Output::stdout();
+            writeln!(out, "{line}")?;
+            out.finish()?;
+        } else {
+            let _ = writeln!(std::io::stderr(), "{line}"); // if nobody can read it, the exit code still tells
+        }
+        stall.map_or(Ok(()), |stall| {
+            note(&stall.reason);
+            Err(Failure::Told)
+        })
+    }
+}
+
+/// 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows (s).
+fn sample_times(until: f64, every: Option<f64>) -> impl Iterator<Item = f64> {
+    let every = every.unwrap_or(until);
+    (0_u64..).map(move |k| k as f64 * every).take_while(move |time| *time < until).chain(std::iter::once(until))
+}
+
+fn closing_line(end: &State, impacts: u64, energy: f64, stall: Option<&Stall>) -> String {
+    let stalled = stall.map(|stall| format!(" stall={}", stall.kind)).unwrap_or_default();
+    format!("t={:?} impacts={impacts} energy={energy:?} hash={:016x}{stalled}", end.t, end.hash())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(until: f64, every: Option<f64>) -> Vec<f64> {
+        sample_times(until, every).collect()
+    }
+
+    #[test]
+    fn states_are_multiples_and_the_end_comes_once() {
+        assert_eq!(times(1.0, Some(0.25)), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(times(1.0, Some(0.4)), [0.0, 0.4, 0.8, 1.0]);
+        assert_eq!(times(1.0, Some(5.0)), [0.0, 1.0]);
+        assert_eq!(times(1.0, None), [0.0, 1.0]);
+        assert_eq!(times(0.0, Some(0.1)), [0.0]);
+        assert_eq!(times(0.0, None), [0.0]);
+        let tenths = times(1.0, Some(0.1));
+        assert_eq!((tenths[3], tenths.len()), (3.0 * 0.1, 11), "0.1 summed three times is another number");
+    }
+}

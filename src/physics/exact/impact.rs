@@ -1,0 +1,278 @@
+//! A contact happens: the impact law acts, or a rest may begin.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::Exact;
+use crate::physics::contact::Key;
+use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
+use crate::physics::log::Log;
+use crate::physics::motion::{classify, normal_velocity, separation_speed};
+use crate::physics::{Class, Contact, Kind, Model, Stall};
+
+/// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
+/// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
+const COLLAPSE: u32 = 1000;
+
+/// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
+const MOST_AT_ONCE: u64 = 1_000_000;
+
+/// Over how many events the clock must advance by more than rounding.
+const STRETCH: u64 = 20_000_000;
+
+/// Flights shorter than this many times the clock's rounding, over 1 − e, never decay (Zeno).
+const ZENO: f64 = 10.0;
+
+/// Coarsest time scale at which rounding of the clock is ignored, s.
+const CLOCK: f64 = 1e-3;
+
+/// What happened without the clock advancing.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Instant {
+    events: u64,
+    impacts: BTreeMap<Key, u32>,
+    /// Events in this stretch, and the time when it began, s.
+    stretch: u64,
+    since: f64,
+}
+
+/// Two bodies that touch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting {
+    pub(super) key: Key,
+    pub(super) point: DVec3,
+    pub(super) normal: DVec3,
+    /// Gap, m, and what it is measured by: r, or r₁ + r₂.
+    gap: f64,
+    reach: f64,
+    /// Normal velocity, m/s: the predictor's own expression.
+    pub(super) v_n: f64,
+    /// How fast v_n grows as things are, m/s²; negative: pressed together.
+    a_n: f64,
+}
+
+impl Meeting {
+    /// The row of this contact: `impulse` in N s, v_n afterwards in m/s.
+    pub(super) fn row(&self, time: f64, class: Class, impulse: f64, separation_speed: f64) -> Contact {
+        let (kind, a, b) = self.key;
+        Contact {
+            time,
+            kind,
+            a,
+            b,
+            point: self.point,
+            normal: self.normal,
+            approach_speed: -self.v_n,
+            separation_speed,
+            impulse,
+            degree: -self.gap / self.reach,
+            class,
+        }
+    }
+}
+
+impl Exact {
+    /// The clock goes on to `time`, s; says so if it does not for too many events.
+    pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
+        let Exact { instant, now, .. } = self;
+        if time > *now {
+            *now = time;
+            instant.events = 0;
+            if !instant.impacts.is_empty() {
+                instant.impacts.clear();
+            }
+        }
+        instant.events += 1;
+        instant.stretch += 1;
+        if instant.events > MOST_AT_ONCE + 1000 * spheres as u64 {
+            let events = instant.events;
+            return Err(self.no_progress(events));
+        }
+        if instant.stretch > STRETCH + 1000 * spheres as u64 {
+            // a nanosecond of the time scale: what a hundred million such stretches would still not leave behind
+            if *now - instant.since < 1e-9 * now.abs().max(CLOCK) {
+                let events = instant.stretch;
+                return Err(self.no_progress(events));
+            }
+            (instant.stretch, instant.since) = (0, *now);
+        }
+        Ok(())
+    }
+
+    fn no_progress(&self, events: u64) -> Stall {
+        let reason = format!(
+            "{events} events happened at t = {} s without the clock advancing; set a larger rest_speed or use the method moreau.",
+            self.now
+        );
+        Stall { time: self.now, kind: "no-progress", reason }
+    }
+
+    /// The contact that sphere `i` planned is due.
+    pub(super) fn contact(&mut self, model: &Model, log: &mut Log, i: usize) -> Result<(), Stall> {
+        let plan = self.plans[i];
+        let other = plan.other as usize;
+        let stale = plan.kind == Kind::Pair && self.stamps[other] != plan.stamp;
+        let (a, b) = if plan.kind == Kind::Pair { (i.min(other), i.max(other)) } else { (i, other) };
+        let key = (plan.kind, a, b);
+        if stale || self.rests.holds(key) {
+            self.predict(model, i);
+            return Ok(());
+        }
+        self.meet(model, log, key)?;
+        // whatever became of the contact, this plan is used up
+        if self.plans[i] == plan {
+            self.predict(model, i);
+        }
+        Ok(())
+    }
+
+    /// The bodies of a contact now, their lines brought to the present.
+    pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
+        let (kind, a, b) = key;
+        self.bring(model, a);
+        if kind == Kind::Pair {
+            self.bring(model, b);
+        }
+        self.seen(model, key)
+    }
+
+    /// The same without touching the lines.
+    pub(super) fn seen(&self, model: &Model, key: Key) -> Meeting {
+        let (kind, a, b) = key;
+        let path = self.flight.path(a, self.now);
+        match kind {
+            Kind::Wall => {
+                let (face, r) = (&model.faces[b], model.radii[a]);
+                let at = touch(face, path.x, r);
+                let a_n = at.normal.dot(path.a) + curvature(face, at.part, at.normal, path.v, r);
+                let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
+                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
+            }
+            Kind::Pair => {
+                let other = self.flight.path(b, self.now);
+                let relative = path.relative_to(&other);
+                let (reach, distance) = (model.radii[a] + model.radii[b], relative.x.length());
+                let (normal, gap) = (relative.x / distance, distance - reach);
+                let v_n = pair_normal_velocity(relative.x, relative.v);
+                let across = relative.v - normal * v_n;
+                let a_n = normal.dot(relative.a) + across.length_squared() / distance;
+                let point = other.x + normal * (model.radii[b] + 0.5 * gap);
+                Meeting { key, point, normal, gap, reach, v_n, a_n }
+            }
+        }
+    }
+
+    /// The impact law acts on a contact.
+    pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
+        let meeting = self.meeting(model, key);
+        match self.class(model, &meeting) {
+            Class::Collide => self.collide(model, log, &meeting),
+            Class::Rest => {
+                self.rests.propose(model, &self.flight, self.now, &meeting);
+                Ok(())
+            }
+            Class::Leave | Class::Release => Ok(()),
+        }
+    }
+
+    fn class(&mut self, model: &Model, meeting: &Meeting) -> Class {
+        let (kind, ..) = meeting.key;
+        let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
+        let pressed = meeting.a_n < 0.0;
+        let tick = self.tick();
+        if pressed && meeting.v_n.abs() <= ZENO * -meeting.a_n * tick {
+            // the flight would last no longer than the clock can tell
+            return Class::Rest;
+        }
+        let mut law = model.law;
+        if restitution < 1.0 {
+            law.rest_speed = law.rest_speed.max(ZENO * (-meeting.a_n).max(0.0) * tick / (1.0 - restitution));
+        }
+        let class = classify(meeting.v_n, pressed, &law);
+        if class == Class::Collide && restitution < 1.0 && self.instant.events > u64::from(COLLAPSE) {
+            let count = self.instant.impacts.entry(meeting.key).or_default();
+            *count += 1;
+            if *count > COLLAPSE {
+                return Class::Rest;
+            }
+        }
+        class
+    }
+
+    /// Rounding of the clock, s.
+    pub(super) fn tick(&self) -> f64 {
+        let t = self.now.abs().max(CLOCK);
+        t.next_up() - t
+    }
+
+    /// Effective rest speed of a contact between a sphere and anything, pressed at `a_n` (m/s²), m/s.
+    pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Result<(), Stall> {
+        let (kind, a, b) = meeting.key;
+        let target = separation_speed(meeting.v_n, Class::Collide, kind, &model.law);
+        let change = target - meeting.v_n;
+        let impulse = match kind {
+            Kind::Wall => {
+                let v = self.flight.lines[a].v;
+                let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
+                self.push(a, meeting.normal * change + slip);
+                change * model.masses[a]
+            }
+            Kind::Pair => {
+                let impulse = change / (model.inverse_masses[a] + model.inverse_masses[b]);
+                self.push(a, meeting.normal * (impulse * model.inverse_masses[a]));
+                self.push(b, meeting.normal * (-impulse * model.inverse_masses[b]));
+                impulse
+            }
+        };
+        self.part(model, meeting.key);
+        let row = meeting.row(self.now, Class::Collide, impulse, target);
+        log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
+        log.contacts.push(row);
+        log.event(row);
+        let touched = if kind == Kind::Pair { &[a, b][..] } else { &[a][..] };
+        for &i in touched {
+            self.finite(i)?;
+            self.stamps[i] = self.stamps[i].wrapping_add(1);
+            self.disturb(model, log, i);
+        }
+        for &i in touched {
+            self.predict(model, i);
+        }
+        Ok(())
+    }
+
+    /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
+    fn push(&mut self, i: usize, change: DVec3) {
+        let line = self.flight.lines[i];
+        self.flight.rewrite(i, self.now, line.x, line.v + change);
+    }
+
+    /// Sees to it that a contact that is over does not approach by a rounding: the predictor would find it again and
+    /// again.
+    pub(super) fn part(&mut self, model: &Model, key: Key) {
+        let a = key.1;
+        let mut nudge = f64::EPSILON * self.flight.lines[a].v.length().max(f64::MIN_POSITIVE);
+        for _ in 0..64 {
+            let meeting = self.seen(model, key);
+            if meeting.v_n >= 0.0 || meeting.v_n.is_nan() {
+                return;
+            }
+            self.push(a, meeting.normal * nudge.max(-meeting.v_n));
+            nudge *= 2.0;
+        }
+    }
+
+    /// The second of two places where a number that is none is caught.
+    pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
+        let line = &self.flight.lines[i];
+        if line.x.is_finite() && line.v.is_finite() {
+            return Ok(());
+        }
+        let reason = format!(
+            "The motion of sphere {i} is no longer a finite number at t = {} s; its speeds or distances are too large for f64.",
+            self.now
+        );
+        Err(Stall { time: self.now, kind: "non-finite", reason })
+    }
+}

@@ -1,0 +1,73 @@
+//! Contacts that exist at load: here alone does a gap of rounding's size count as touching.
+
+use super::Exact;
+use crate::physics::contact::Key;
+use crate::physics::contact_time::touch;
+use crate::physics::log::Log;
+use crate::physics::overlap::touching;
+use crate::physics::{Kind, Model, Stall};
+
+/// Events at the very start after which the rest is left to the first frame.
+const MOST_AT_LOAD: usize = 1_000_000;
+
+impl Exact {
+    /// Handles what touches at the start, in the order of events, and predicts everything.
+    pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
+        for key in self.touching_now(model) {
+            // a stall at load shows itself again in the first frame
+            let _ = self.meet_at_load(model, log, key);
+        }
+        for i in 0..model.len() {
+            self.predict(model, i);
+        }
+        for _ in 0..MOST_AT_LOAD {
+            let next = self.queue.first(|_, _| false).0;
+            let idle = next > self.now && !self.rests.is_dirty();
+            if idle || self.turn(model, log).is_err() {
+                break;
+            }
+        }
+        log.contacts.clear();
+    }
+
+    /// A contact that neither opens nor collides may rest, pressed or not: its island knows.
+    fn meet_at_load(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
+        let meeting = self.meeting(model, key);
+        if meeting.v_n == 0.0 {
+            self.rests.propose(model, &self.flight, self.now, &meeting);
+            return Ok(());
+        }
+        self.meet(model, log, key)
+    }
+
+    /// Every contact with a gap of at most max(1e-12 r, 8 ulp of the coordinates): walls before pairs, then a, then b.
+    fn touching_now(&self, model: &Model) -> Vec<Key> {
+        let mut found = Vec::new();
+        let lines = &self.flight.lines;
+        for (i, line) in lines.iter().enumerate() {
+            let slack = touching(line.r, line.x.abs().max_element());
+            let mut wall = |wall: usize| {
+                if touch(&model.faces[wall], line.x, line.r).gap <= slack {
+                    found.push((Kind::Wall, i, wall));
+                }
+            };
+            match &self.cells {
+                None => (0..model.faces.len()).for_each(&mut wall),
+                Some(cells) => cells.walls_near(i).iter().for_each(|&w| wall(w as usize)),
+            }
+            let mut pair = |j: usize| {
+                let slack = touching(line.r + lines[j].r, line.x.abs().max(lines[j].x.abs()).max_element());
+                if i < j && (line.x - lines[j].x).length() - (line.r + lines[j].r) <= slack {
+                    found.push((Kind::Pair, i, j));
+                }
+            };
+            match &self.cells {
+                None => (i + 1..lines.len()).for_each(&mut pair),
+                Some(cells) => cells.around(i, &mut pair),
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}

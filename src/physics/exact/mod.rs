@@ -1,0 +1,202 @@
+//! The event-driven method: no time step. Between events every sphere moves on a parabola; the next event is computed,
+//! not searched for by stepping. The yardstick of the other methods.
+//!
+//! The loop: take the earliest event of all (ties: walls, pairs, ends of parabolas, crossings of cells; then a, then b),
+//! advance the clock to it, let the impact law act on the two bodies, predict them anew. When no contact is left at an
+//! instant, islands of resting contacts are settled (`rest`). Reading never rewrites a line (`flight`), and frames only
+//! say where to pause: neither changes a bit of the trajectory.
+
+mod cells;
+mod curved;
+mod flight;
+mod impact;
+mod islands;
+mod load;
+mod parts;
+mod prediction;
+mod queue;
+mod rest;
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::log::Log;
+use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
+use cells::Cells;
+use flight::Flight;
+use impact::Instant;
+use islands::Rests;
+use prediction::Plan;
+use queue::Queue;
+
+/// What the method is.
+pub(super) const DESCRIPTION: Description = Description {
+    method: Method::Exact,
+    summary: "event-driven: parabolas between contacts whose times are roots of polynomials; no time step",
+    order: "exact up to rounding; curved rest (on edges, corners and other spheres) is integrated to 1e-12",
+    source: "Lubachevsky 1991; event rule of Bannerman et al. 2014; complementarity of resting islands",
+    knobs: "none: dt only sets the frames that are shown, the tolerance is not used",
+    avoid: "crowds that settle with restitution below 1: their events come ever faster",
+};
+
+/// Spheres beyond this many are kept in cells.
+const FEW: usize = 64;
+
+/// The event-driven method at work.
+#[derive(Debug, Clone)]
+pub(super) struct Exact {
+    settings: Settings,
+    /// Time of the last event, s.
+    now: f64,
+    frame: Frame,
+    flight: Flight,
+    /// How often each sphere's motion has changed.
+    stamps: Vec<u32>,
+    plans: Vec<Plan>,
+    queue: Queue,
+    cells: Option<Cells>,
+    rests: Rests,
+    instant: Instant,
+    /// Gaps computed since the log was last told.
+    evaluations: u64,
+}
+
+/// What one single-step shows: up to the next event, or dt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Frame {
+    /// End of the last complete frame, s.
+    time: f64,
+    /// Its length, s.
+    step: f64,
+    /// Whether the next one is under way.
+    open: bool,
+}
+
+/// What became of one turn of the loop.
+enum Turn {
+    /// An event was handled.
+    Event,
+    /// The frame in progress is complete.
+    Frame,
+}
+
+impl Engine for Exact {
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact {
+        let count = model.len();
+        let mut exact = Exact {
+            settings,
+            now: state.t,
+            frame: Frame { time: state.t, step: 0.0, open: false },
+            flight: Flight::new(model, &state),
+            stamps: vec![0; count],
+            plans: vec![Plan::IDLE; count],
+            queue: Queue::new(count),
+            cells: (count > FEW).then(|| Cells::new(model, &state)),
+            rests: Rests::default(),
+            instant: Instant::default(),
+            evaluations: 0,
+        };
+        exact.load(model, log);
+        exact.flight.forget();
+        exact
+    }
+
+    fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
+        for _ in 0..work {
+            if !self.frame.open {
+                if matches!(until, Until::Time(t) if t <= self.frame.time) {
+                    return Progress::Reached;
+                }
+                self.open_frame(log);
+            }
+            match self.turn(model, log) {
+                Ok(Turn::Event) => {}
+                Ok(Turn::Frame) if until == Until::Frame => return Progress::Reached,
+                Ok(Turn::Frame) => {}
+                Err(stall) => return Progress::Stalled(stall),
+            }
+        }
+        match until {
+            Until::Time(t) if !self.frame.open && t <= self.frame.time => Progress::Reached,
+            _ => Progress::Yielded,
+        }
+    }
+
+    fn retune(&mut self, _: &Model, settings: Settings) {
+        self.settings = settings;
+    }
+
+    fn state(&self, model: &Model) -> Cow<'_, State> {
+        Cow::Owned(self.at(model, self.frame.time))
+    }
+
+    fn time(&self) -> f64 {
+        self.frame.time
+    }
+
+    fn step(&self) -> f64 {
+        self.frame.step
+    }
+
+    fn at(&self, model: &Model, t: f64) -> State {
+        let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
+        let mut state = self.flight.then(t);
+        self.rests.bend(model, &mut state);
+        state
+    }
+
+    fn transient(&self, model: &Model) -> Vec<DVec3> {
+        vec![DVec3::ZERO; model.len()]
+    }
+
+    fn continue_with(&mut self, _: &[DVec3]) {}
+
+    fn hand_over(&self, model: &Model) -> State {
+        self.at(model, self.frame.time)
+    }
+}
+
+impl Exact {
+    fn open_frame(&mut self, log: &mut Log) {
+        self.frame.open = true;
+        self.flight.forget();
+        log.contacts.clear();
+        log.probes.clear();
+    }
+
+    fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
+        self.frame = Frame { time: end, step: end - self.frame.time, open: false };
+        log.tallies.frames += 1;
+        log.tallies.evaluations += std::mem::take(&mut self.evaluations);
+        log.tallies.inexact_time = self.rests.curved_time(end);
+        Turn::Frame
+    }
+
+    /// One event, or the end of the frame.
+    fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
+        let (time, i) = self.queue.first(|i, j| {
+            let time = self.plans[i].contact.min(self.plans[i].crossing).min(self.rests.end_led_by(i));
+            self.rank(time, i) < self.rank(time, j)
+        });
+        let rank = if time < f64::INFINITY { self.rank(time, i) } else { (3, 0, 0) };
+        if self.rests.is_dirty() && (time > self.now || rank.0 > 1) {
+            self.settle(model, log)?;
+            return Ok(Turn::Event);
+        }
+        if !log.contacts.is_empty() && time > self.now && self.now > self.frame.time {
+            return Ok(self.close_frame(log, self.now));
+        }
+        let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
+        if time > end {
+            return Ok(self.close_frame(log, end));
+        }
+        self.advance_clock(time, model.len())?;
+        match rank.0 {
+            0 | 1 => self.contact(model, log, i)?,
+            2 => self.end_parabola(model, i),
+            _ => self.cross(model, i),
+        }
+        Ok(Turn::Event)
+    }
+}

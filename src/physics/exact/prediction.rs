@@ -1,0 +1,151 @@
+//! What happens next to one sphere: its earliest contact, its way out of its cube, the end of its island's parabola.
+
+use super::Exact;
+use super::cells::Way;
+use crate::physics::contact_time::{Path, sphere_sphere, sphere_wall, straight_pair};
+use crate::physics::{Kind, Model};
+
+/// The next event of a sphere as predicted with what was known then. One is kept per sphere: whichever of two partners
+/// was predicted last knows of their contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plan {
+    /// When it touches something, s; infinite if never.
+    pub(super) contact: f64,
+    /// When it leaves its cube, s.
+    pub(super) crossing: f64,
+    /// The wall or the other sphere.
+    pub(super) other: u32,
+    /// How often the other sphere's motion had changed by then: if it has since, the plan is stale.
+    pub(super) stamp: u32,
+    /// Wall or pair.
+    pub(super) kind: Kind,
+    /// Into which cube.
+    pub(super) way: Way,
+}
+
+impl Plan {
+    /// Nothing happens.
+    pub(super) const IDLE: Plan = Plan {
+        contact: f64::INFINITY,
+        crossing: f64::INFINITY,
+        other: 0,
+        stamp: 0,
+        kind: Kind::Wall,
+        way: Way { axis: 0, sign: 1 },
+    };
+}
+
+/// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
+pub(super) type Rank = (u8, usize, usize);
+
+impl Exact {
+    /// Predicts sphere `i` afresh from the present on.
+    pub(super) fn predict(&mut self, model: &Model, i: usize) {
+        let path = self.flight.path(i, self.now);
+        let mut plan = Plan::IDLE;
+        let evaluations = match &self.cells {
+            None => {
+                let walls = 0..model.faces.len();
+                let spheres = (0..model.len()).filter(|&j| j != i);
+                self.walls(model, i, &path, walls, &mut plan)
+                    + spheres.map(|j| self.pair(i, &path, j, &mut plan)).sum::<u64>()
+            }
+            Some(cells) => {
+                let walls = cells.walls_near(i).iter().map(|&wall| wall as usize);
+                let mut count = self.walls(model, i, &path, walls, &mut plan);
+                cells.around(i, |j| count += self.pair(i, &path, j, &mut plan));
+                let (crossing, way) = cells.crossing(i, &path);
+                (plan.crossing, plan.way) = (self.now + crossing, way);
+                count
+            }
+        };
+        self.evaluations += evaluations;
+        self.plans[i] = plan;
+        self.schedule(i);
+    }
+
+    /// Sphere `i` crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
+    pub(super) fn cross(&mut self, model: &Model, i: usize) {
+        let mut plan = self.plans[i];
+        let path = self.flight.path(i, self.now);
+        let Some(mut cells) = self.cells.take() else { return };
+        cells.cross(i, plan.way);
+        let walls = cells.walls_near(i).iter().map(|&wall| wall as usize);
+        let mut count = self.walls(model, i, &path, walls, &mut plan);
+        cells.ahead(i, plan.way, |j| count += self.pair(i, &path, j, &mut plan));
+        let (crossing, way) = cells.crossing(i, &path);
+        (plan.crossing, plan.way) = (self.now + crossing, way);
+        self.cells = Some(cells);
+        self.evaluations += count;
+        self.plans[i] = plan;
+        self.schedule(i);
+    }
+
+    /// Enters the earliest of sphere `i`'s plan and its island's end into the queue.
+    #[inline]
+    pub(super) fn schedule(&mut self, i: usize) {
+        let plan = &self.plans[i];
+        let contact = plan.contact.min(plan.crossing);
+        self.queue.set(i, if self.rests.is_empty() { contact } else { contact.min(self.rests.end_led_by(i)) });
+    }
+
+    /// What sphere `i`'s entry at `time` stands for.
+    pub(super) fn rank(&self, time: f64, i: usize) -> Rank {
+        let plan = &self.plans[i];
+        let other = plan.other as usize;
+        match plan.kind {
+            Kind::Wall if plan.contact == time => (0, i, other),
+            Kind::Pair if plan.contact == time => (1, i.min(other), i.max(other)),
+            _ if self.rests.end_led_by(i) == time => (2, i, 0),
+            _ => (3, i, 0),
+        }
+    }
+
+    /// Looks at some walls, in ascending order; returns how many.
+    #[inline]
+    fn walls(&self, model: &Model, i: usize, path: &Path, walls: impl Iterator<Item = usize>, plan: &mut Plan) -> u64 {
+        let mut count = 0;
+        for wall in walls {
+            if self.rests.holds((Kind::Wall, i, wall)) {
+                continue;
+            }
+            count += 1;
+            let before = plan.contact - self.now;
+            let Some(t) = sphere_wall(path, model.radii[i], &model.faces[wall], before) else { continue };
+            let time = self.now + t;
+            if time < plan.contact {
+                (plan.contact, plan.kind, plan.other) = (time, Kind::Wall, wall as u32);
+            }
+        }
+        count
+    }
+
+    /// Looks at one pair; returns 1 if there was anything to look at.
+    #[inline]
+    fn pair(&self, i: usize, path: &Path, j: usize, plan: &mut Plan) -> u64 {
+        let line = &self.flight.lines[j];
+        let reach = self.flight.lines[i].r + line.r;
+        let found = if self.flight.is_straight() {
+            straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach)
+        } else {
+            let relative = path.relative_to(&self.flight.path(j, self.now));
+            sphere_sphere(&relative, reach, plan.contact - self.now)
+        };
+        let Some(t) = found else { return 1 };
+        let time = self.now + t;
+        if time < plan.contact || time == plan.contact && self.wins_tie(i, j, plan) {
+            if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
+                return 0;
+            }
+            (plan.contact, plan.kind) = (time, Kind::Pair);
+            (plan.other, plan.stamp) = (j as u32, self.stamps[j]);
+        }
+        1
+    }
+
+    /// Among pairs at one time the lower (a, b) comes first; walls come before pairs.
+    fn wins_tie(&self, i: usize, j: usize, plan: &Plan) -> bool {
+        let other = plan.other as usize;
+        plan.kind == Kind::Pair && plan.contact.is_finite() && (i.min(j), i.max(j)) < (i.min(other), i.max(other))
+    }
+}

@@ -1,0 +1,218 @@
+//! The built program in a real pseudo-terminal, with an emulator looking on.
+//!
+//! Reading happens on a thread, one read per request, so that a test can wait for output with a bound, and so that
+//! nobody else holds the terminal open when a test closes it.
+
+use std::{
+    io::{Read, Write},
+    num::NonZero,
+    sync::mpsc::{self, Receiver, RecvTimeoutError, Sender},
+    thread,
+    time::Duration,
+};
+
+use portable_pty::{CommandBuilder, MasterPty, PtySize, SlavePty, native_pty_system};
+use rustix::process::{Pid, Signal, kill_process};
+
+/// Longest wait for anything that must happen: generous, because it only ends a test that has failed.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
+
+/// What a test starts.
+pub(crate) struct Start<'a> {
+    pub(crate) program: &'a str,
+    pub(crate) arguments: &'a [&'a str],
+    pub(crate) environment: &'a [(&'a str, &'a str)],
+    pub(crate) size: (u16, u16),
+}
+
+/// The program under test on a UTF-8 terminal of 80×24.
+pub(crate) fn carom<'a>(arguments: &'a [&'a str]) -> Start<'a> {
+    Start { program: env!("CARGO_BIN_EXE_carom"), arguments, environment: &[], size: (80, 24) }
+}
+
+/// A program in a terminal.
+pub(crate) struct Pty {
+    master: Box<dyn MasterPty + Send>,
+    /// Kept open: the kernel forgets a terminal's modes when nobody has it open.
+    slave: Box<dyn SlavePty + Send>,
+    writer: Box<dyn Write + Send>,
+    requests: Sender<()>,
+    answers: Receiver<Vec<u8>>,
+    asked: bool,
+    exit: Receiver<u32>,
+    pid: Pid,
+    emulator: vt100::Parser,
+    /// Everything the program has written.
+    pub(crate) output: Vec<u8>,
+}
+
+impl Start<'_> {
+    pub(crate) fn run(&self) -> Pty {
+        let (cols, rows) = self.size;
+        let size = PtySize { rows, cols, ..PtySize::default() };
+        let pair = native_pty_system().openpty(size).expect("a pseudo-terminal");
+        let mut command = CommandBuilder::new(self.program);
+        command.args(self.arguments);
+        command.cwd(env!("CARGO_MANIFEST_DIR"));
+        for variable in ["LC_ALL", "LC_CTYPE", "NO_COLOR", "COLORTERM", "SSH_CONNECTION", "RUST_BACKTRACE"] {
+            command.env_remove(variable);
+        }
+        command.env("LANG", "C.UTF-8");
+        command.env("TERM", "xterm-256color");
+        for (name, value) in self.environment {
+            command.env(name, value);
+        }
+        let mut child = pair.slave.spawn_command(command).expect("the program starts");
+        let pid = child.process_id().and_then(|pid| Pid::from_raw(pid as i32)).expect("it has a process id");
+        let (ended, exit) = mpsc::channel();
+        thread::spawn(move || ended.send(child.wait().expect("it is our child").exit_code()));
+        let reader = pair.master.try_clone_reader().expect("a terminal can be read");
+        let (requests, answers) = read_on_request(reader);
+        Pty {
+            writer: pair.master.take_writer().expect("a terminal can be written"),
+            master: pair.master,
+            slave: pair.slave,
+            requests,
+            answers,
+            asked: false,
+            exit,
+            pid,
+            emulator: vt100::Parser::new(at_least_one(rows), at_least_one(cols), 0),
+            output: Vec::new(),
+        }
+    }
+}
+
+/// The emulator has no smaller screens.
+fn at_least_one(cells: u16) -> NonZero<u16> {
+    NonZero::new(cells).unwrap_or(NonZero::<u16>::MIN)
+}
+
+fn read_on_request(mut reader: Box<dyn Read + Send>) -> (Sender<()>, Receiver<Vec<u8>>) {
+    let (requests, inbox) = mpsc::channel();
+    let (outbox, answers) = mpsc::channel();
+    thread::spawn(move || {
+        let mut bytes = vec![0; 65536];
+        for () in inbox {
+            let read = reader.read(&mut bytes).unwrap_or(0);
+            if outbox.send(bytes[..read].to_vec()).is_err() {
+                return;
+            }
+        }
+    });
+    (requests, answers)
+}
+
+impl Pty {
+    /// The next output, if there is any within that time.
+    pub(crate) fn read(&mut self, within: Duration) -> Option<Vec<u8>> {
+        if !self.asked {
+            self.requests.send(()).expect("the reader lives");
+        }
+        let answer = self.answers.recv_timeout(within);
+        self.asked = answer == Err(RecvTimeoutError::Timeout);
+        let bytes = answer.ok()?;
+        self.output.extend(&bytes);
+        self.emulator.process(&bytes);
+        Some(bytes)
+    }
+
+    /// Reads on until the screen is as wanted.
+    pub(crate) fn until(&mut self, what: &str, wanted: impl Fn(&vt100::Screen) -> bool) {
+        while !wanted(self.emulator.screen()) {
+            let read = self.read(PATIENCE);
+            assert!(read.is_some_and(|bytes| !bytes.is_empty()), "never saw {what}; the screen:\n{}", self.text());
+        }
+    }
+
+    /// Reads on until the screen shows that text.
+    pub(crate) fn until_text(&mut self, text: &str) {
+        self.until(&format!("{text:?}"), |screen| screen.contents().contains(text));
+    }
+
+    /// Reads on until the program has written `bytes` after its first `from` bytes.
+    pub(crate) fn until_bytes(&mut self, from: usize, bytes: &[u8]) {
+        while !self.output[from..].windows(bytes.len()).any(|window| window == bytes) {
+            let read = self.read(PATIENCE);
+            assert!(read.is_some_and(|bytes| !bytes.is_empty()), "never saw {bytes:?}");
+        }
+    }
+
+    pub(crate) fn text(&self) -> String {
+        self.emulator.screen().contents()
+    }
+
+    pub(crate) fn screen(&self) -> &vt100::Screen {
+        self.emulator.screen()
+    }
+
+    pub(crate) fn send(&mut self, keys: &str) {
+        self.writer.write_all(keys.as_bytes()).and_then(|()| self.writer.flush()).expect("the terminal takes keys");
+    }
+
+    pub(crate) fn resize(&mut self, cols: u16, rows: u16) {
+        self.emulator.screen_mut().set_size(at_least_one(rows), at_least_one(cols));
+        self.master.resize(PtySize { rows, cols, ..PtySize::default() }).expect("the terminal can be resized");
+    }
+
+    pub(crate) fn signal(&self, signal: Signal) {
+        kill_process(self.pid, signal).expect("the program runs");
+    }
+
+    /// The terminal's modes.
+    pub(crate) fn modes(&self) -> String {
+        format!("{:?}", self.master.get_termios().expect("it has modes"))
+    }
+
+    /// The exit code, and the screen as the program left it.
+    pub(crate) fn exit(&mut self) -> u32 {
+        let turn = Duration::from_millis(5);
+        let turns = PATIENCE.as_millis() / turn.as_millis();
+        let code = (0..turns).find_map(|_| {
+            drop(self.read(turn)); // a program that can't write might not end
+            self.exit.try_recv().ok()
+        });
+        let code = code.unwrap_or_else(|| panic!("it never ends; the screen:\n{}", self.text()));
+        while self.read(Duration::from_millis(50)).is_some_and(|bytes| !bytes.is_empty()) {}
+        code
+    }
+
+    /// Looks away: nothing is read for that long, or until the program ends; its exit code if it did.
+    pub(crate) fn look_away(&mut self, time: Duration) -> Option<u32> {
+        self.exit.recv_timeout(time).ok()
+    }
+
+    /// Closes the terminal under the program, as a dropped connection does; its exit code. Only while it draws.
+    pub(crate) fn hang_up(mut self) -> u32 {
+        while self.asked {
+            drop(self.read(PATIENCE));
+        }
+        let Pty { master, slave, writer, requests, answers, exit, .. } = self;
+        drop((master, slave, writer, requests, answers));
+        exit.recv_timeout(PATIENCE).expect("the program ends with its terminal")
+    }
+
+    /// Private modes that were switched on and not off again.
+    pub(crate) fn modes_left_on(&self) -> Vec<u32> {
+        let text = String::from_utf8_lossy(&self.output);
+        let mut on: Vec<u32> = Vec::new();
+        for sequence in text.split("\x1b[?").skip(1) {
+            let end = sequence.find(|c: char| !c.is_ascii_digit() && c != ';').unwrap_or(sequence.len());
+            let modes = sequence[..end].split(';').filter_map(|mode| mode.parse().ok());
+            match &sequence[end..].chars().next() {
+                Some('h') => on.extend(modes),
+                Some('l') => modes.for_each(|mode: u32| on.retain(|other| *other != mode)),
+                _ => {}
+            }
+        }
+        on.retain(|mode| *mode != 25); // a visible cursor is how it was
+        on
+    }
+
+    /// Whether the terminal is as a program must leave it, except for its modes of the line (see [`Pty::modes`]).
+    pub(crate) fn assert_given_back(&self) {
+        assert_eq!(self.modes_left_on(), [], "modes left on");
+        assert!(!self.screen().hide_cursor(), "the cursor is hidden");
+        assert!(!self.screen().alternate_screen(), "the alternate screen is on");
+    }
+}
