@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use carom::physics::overlap::Finder;
 use carom::physics::{Model, Scene, Simulation, Until};
-use glam::{DVec3, dvec3};
+use glam::DVec3;
 use support::{ELASTIC, G, gas, lattice, paper, room, scene, sphere};
 
 /// Length of a frame, s.
@@ -102,6 +102,7 @@ struct Hand {
     end: (Vec<DVec3>, Vec<DVec3>),
     radius: f64,
     walls: Vec<(DVec3, DVec3)>,
+    /// The scene without its walls, which are tested by hand: for the neighbour search.
     model: Model,
     finder: Finder,
     t: f64,
@@ -111,82 +112,96 @@ struct Hand {
 
 impl Hand {
     fn new(scene: &Scene) -> Hand {
-        let model = Model::new(scene);
+        let evaluations = Simulation::new(scene, paper(DT, 1e-3)).tallies().evaluations;
+        let model = Model::new(&Scene { walls: Vec::new(), ..scene.clone() });
         let state = (model.initial.x.clone(), model.initial.v.clone());
-        let mut finder = Finder::new(&model);
-        let evaluations = finder.all(&model, &state.0, true);
         Hand {
             start: state.clone(),
             end: state,
             radius: scene.spheres[0].radius,
             walls: scene.walls.iter().map(|w| (w.shape.center, w.shape.normal())).collect(),
+            finder: Finder::new(&model),
             model,
-            finder,
             t: 0.0,
             touched: 0,
             evaluations,
         }
     }
+
+    fn meet_walls(&mut self) {
+        for x in &self.end.0 {
+            for (center, normal) in &self.walls {
+                self.touched += u64::from((*x - *center).dot(*normal).abs() <= self.radius);
+            }
+        }
+        self.evaluations += (self.end.0.len() * self.walls.len()) as u64;
+    }
+
+    fn meet_each_other(&mut self) {
+        let Hand { start, end, model, finder, .. } = self;
+        finder.begin();
+        finder.walls(model, &start.0, &end.0, 0..end.0.len());
+        while !finder.pairs(model, &end.0).0 {}
+        self.touched += finder.found.len() as u64;
+        self.evaluations += finder.evaluations;
+    }
 }
 
 /// No gravity: velocities never change.
 fn straight(hand: &mut Hand, frames: usize) {
-    let Hand { start, end, model, finder, .. } = hand;
     for _ in 0..frames {
-        std::mem::swap(&mut start.0, &mut end.0);
-        for ((x1, x0), v) in end.0.iter_mut().zip(&start.0).zip(&start.1) {
+        std::mem::swap(&mut hand.start.0, &mut hand.end.0);
+        for ((x1, x0), v) in hand.end.0.iter_mut().zip(&hand.start.0).zip(&hand.start.1) {
             *x1 = *x0 + *v * DT;
         }
         hand.t += DT;
-        finder.begin();
-        finder.walls(model, &start.0, &end.0, 0..end.0.len());
-        while !finder.pairs(model, &end.0).0 {}
-        hand.touched += finder.found.len() as u64;
-        hand.evaluations += finder.evaluations;
+        hand.meet_walls();
+        hand.meet_each_other();
     }
 }
 
 /// Gravity and no walls.
 fn falling(hand: &mut Hand, frames: usize) {
-    let Hand { start, end, model, finder, .. } = hand;
     for _ in 0..frames {
-        std::mem::swap(start, end);
+        std::mem::swap(&mut hand.start, &mut hand.end);
+        let (start, end) = (&hand.start, &mut hand.end);
         for i in 0..end.0.len() {
             end.1[i] = start.1[i] + G * DT;
             end.0[i] = start.0[i] + end.1[i] * DT;
         }
         hand.t += DT;
-        finder.begin();
-        finder.walls(model, &start.0, &end.0, 0..end.0.len());
-        while !finder.pairs(model, &end.0).0 {}
-        hand.touched += finder.found.len() as u64;
-        hand.evaluations += finder.evaluations;
+        hand.meet_each_other();
     }
 }
 
-/// One sphere and six walls.
+/// One sphere and six walls, in local variables.
 fn one_in_a_room(hand: &mut Hand, frames: usize) {
-    let Hand { start, end, walls, .. } = hand;
+    let (mut x, mut v, mut t) = (hand.end.0[0], hand.end.1[0], hand.t);
+    let mut start = (x, v);
     for _ in 0..frames {
-        (start.0[0], start.1[0]) = (end.0[0], end.1[0]);
-        end.1[0] = start.1[0] + G * DT;
-        end.0[0] = start.0[0] + end.1[0] * DT;
-        hand.t += DT;
-        for (center, normal) in walls.iter() {
-            hand.touched += u64::from((end.0[0] - *center).dot(*normal).abs() <= hand.radius);
+        start = (x, v);
+        v += G * DT;
+        x += v * DT;
+        t += DT;
+        for (center, normal) in &hand.walls {
+            hand.touched += u64::from((x - *center).dot(*normal).abs() <= hand.radius);
         }
-        hand.evaluations += walls.len() as u64;
     }
+    hand.evaluations += (frames * hand.walls.len()) as u64;
+    (hand.start.0[0], hand.start.1[0]) = start;
+    (hand.end.0[0], hand.end.1[0], hand.t) = (x, v, t);
 }
 
-/// One sphere and nothing to hit.
+/// One sphere and nothing to hit, in local variables.
 fn one_in_flight(hand: &mut Hand, frames: usize) {
-    let Hand { start, end, .. } = hand;
+    let (mut x, mut v, mut t) = (hand.end.0[0], hand.end.1[0], hand.t);
+    let mut start = (x, v);
     for _ in 0..frames {
-        (start.0[0], start.1[0]) = (end.0[0], end.1[0]);
-        end.1[0] = start.1[0] + G * DT;
-        end.0[0] = start.0[0] + end.1[0] * DT;
-        hand.t += DT;
+        start = (x, v);
+        v += G * DT;
+        x += v * DT;
+        t += DT;
     }
-    black_box(dvec3(hand.t, 0.0, 0.0));
+    (hand.start.0[0], hand.start.1[0]) = start;
+    (hand.end.0[0], hand.end.1[0], hand.t) = (x, v, t);
 }

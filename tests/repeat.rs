@@ -31,11 +31,11 @@ fn frozen(scene: &Scene, state: &State) -> Scene {
 
 #[test]
 fn slices_of_any_size_make_the_same_run() {
-    for k in 0..5 {
+    for (k, until) in UNTIL.into_iter().enumerate() {
         let expected = whole(k);
         for work in [1, 2, 7, 100, 12_345] {
             let mut run = start(k);
-            assert_eq!(run_to(&mut run, UNTIL[k], work), None);
+            assert_eq!(run_to(&mut run, until, work), None);
             assert_eq!(run.state().hash(), expected.hash(), "scene {k}, slices of {work}");
         }
     }
@@ -43,9 +43,9 @@ fn slices_of_any_size_make_the_same_run() {
 
 #[test]
 fn frame_by_frame_is_the_same_run() {
-    for k in 0..5 {
+    for (k, until) in UNTIL.into_iter().enumerate() {
         let mut run = start(k);
-        while run.time() < UNTIL[k] {
+        while run.time() < until {
             assert_eq!(run.advance(Until::Frame, u64::MAX), Progress::Reached);
         }
         assert_eq!(run.state().hash(), whole(k).hash(), "scene {k}");
@@ -54,11 +54,11 @@ fn frame_by_frame_is_the_same_run() {
 
 #[test]
 fn watching_a_run_does_not_change_it() {
-    for k in 0..5 {
+    for (k, until) in UNTIL.into_iter().enumerate() {
         let mut run = start(k);
         run.record_events(true);
         let mut events = run.take_events().len();
-        while run.time() < UNTIL[k] {
+        while run.time() < until {
             run.advance(Until::Frame, 3);
             let between = run.at(run.time() - 0.3 * run.step());
             assert!(between.t <= run.time() && run.energy().is_finite());
@@ -72,13 +72,13 @@ fn watching_a_run_does_not_change_it() {
 
 #[test]
 fn a_copy_goes_on_as_its_original() {
-    for k in 0..5 {
+    for (k, until) in UNTIL.into_iter().enumerate() {
         let mut run = start(k);
         // A budget that ends within a frame's search somewhere.
-        run.advance(Until::Time(UNTIL[k]), 3001);
+        run.advance(Until::Time(until), 3001);
         let mut copy = run.clone();
-        run_to(&mut run, UNTIL[k], u64::MAX);
-        run_to(&mut copy, UNTIL[k], 17);
+        run_to(&mut run, until, u64::MAX);
+        run_to(&mut copy, until, 17);
         assert_eq!((run.state(), run.tallies()), (copy.state(), copy.tallies()), "scene {k}");
         assert_eq!(run.state().hash(), whole(k).hash(), "scene {k}");
     }
@@ -86,7 +86,7 @@ fn a_copy_goes_on_as_its_original() {
 
 #[test]
 fn a_run_continues_from_time_positions_velocities_and_pending_impulses_alone() {
-    for k in 0..5 {
+    for (k, until) in UNTIL.into_iter().enumerate() {
         let scene = paper_scene(k);
         let mut run = start(k);
         for stop in [0.0, 0.23, 1.36, 3.0, 5.0, 7.0] {
@@ -94,7 +94,7 @@ fn a_run_continues_from_time_positions_velocities_and_pending_impulses_alone() {
             let mut again =
                 Simulation::resumed(&frozen(&scene, &run.state()), run.settings(), run.time(), &run.transient());
             assert_eq!(again.state(), run.state());
-            run_to(&mut again, UNTIL[k], u64::MAX);
+            run_to(&mut again, until, u64::MAX);
             assert_eq!(again.state().hash(), whole(k).hash(), "scene {k} from {stop} s");
         }
     }

@@ -188,14 +188,14 @@ fn floor(u: f64) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use glam::{DVec3, dvec3};
 
     use super::Cells;
 
+    type Pair = (usize, usize);
+
     /// Pairs found through cells, and by looking at all.
-    fn both(x: &[DVec3], r: &[f64]) -> (Vec<(usize, usize)>, BTreeSet<(usize, usize)>) {
+    fn both(x: &[DVec3], r: &[f64]) -> (Vec<Pair>, Vec<Pair>) {
         let mut cells = Cells::new(r);
         cells.clear();
         cells.count(x, 0..x.len());
@@ -224,7 +224,7 @@ mod tests {
                     let radii: Vec<f64> = (0..n).map(|k| 0.1 + 0.1 * (k % 3) as f64).collect();
                     let (mut found, expected) = both(&cloud(n, size, about), &radii);
                     found.sort_unstable();
-                    assert_eq!(found, expected.into_iter().collect::<Vec<_>>(), "{n} spheres, {size} about {about}");
+                    assert_eq!(found, expected, "{n} spheres, {size} about {about}");
                 }
             }
         }

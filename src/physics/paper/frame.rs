@@ -1,11 +1,9 @@
 //! One frame: opened, ended by the dt or by the search for the collision time, closed with its responses.
 
 use super::super::log::Log;
-use super::super::model::PairSearch;
-use super::super::motion::{Flight, with_flight};
-use super::super::overlap::{self, Overlap};
+use super::super::overlap::Overlap;
 use super::super::{Model, Probe};
-use super::trial::{Stage, fly};
+use super::trial::Stage;
 use super::{Paper, Search};
 
 /// What rounding may add to the degree of a contact that must not sink further.
@@ -91,79 +89,8 @@ impl Paper {
         self.watch.note(self.end.t - self.start.t, self.step < self.settings.dt, self.settings.dt, log);
     }
 
-    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`].
+    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`](super::cruise).
     pub(super) fn is_calm(&self, log: &Log) -> bool {
         self.finder.found.is_empty() && self.next.list().is_empty() && log.resting.is_empty()
-    }
-
-    /// Whole frames, one after the other, as long as nothing touches; the work that took. The frame in which something
-    /// does is left in progress, its first trial state complete.
-    pub(super) fn cruise(&mut self, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
-        // So many spheres that a frame must be sliced, or that their cells outweigh what is saved here.
-        if model.pairs == PairSearch::Cells {
-            return self.go_on(model, log);
-        }
-        self.kicks.clear();
-        self.allowed.clear();
-        let walls = !model.faces.is_empty();
-        let pairs = model.pairs == PairSearch::All;
-        with_flight!(model, flight => match (walls, pairs) {
-            (false, false) => self.fly_frames::<_, false, false>(flight, model, log, goal, work),
-            (true, false) => self.fly_frames::<_, true, false>(flight, model, log, goal, work),
-            (false, true) => self.fly_frames::<_, false, true>(flight, model, log, goal, work),
-            (true, true) => self.fly_frames::<_, true, true>(flight, model, log, goal, work),
-        })
-    }
-
-    /// [`Paper::cruise`] with nothing in its loop that the scene lacks.
-    fn fly_frames<F: Flight, const WALLS: bool, const PAIRS: bool>(
-        &mut self,
-        flight: F,
-        model: &Model,
-        log: &mut Log,
-        goal: f64,
-        work: u64,
-    ) -> u64 {
-        let (dt, n) = (self.settings.dt, model.len());
-        let evaluations = overlap::evaluations(model);
-        let most = (work / (n as u64 + evaluations).max(1)).max(1);
-        let (mut from, mut to, mut swapped) = (&mut self.start, &mut self.end, false);
-        let (mut frames, mut t) = (0, to.t);
-        let touched = loop {
-            (from, to, swapped) = (to, from, !swapped);
-            from.t = t;
-            t += dt;
-            self.residue = fly(flight, from, to, 0..n, dt);
-            if self.residue != 0.0 || t <= from.t || overlap::any_near::<WALLS, PAIRS>(model, &to.x) {
-                self.finder.begin();
-                self.finder.walls(model, &from.x, &to.x, 0..n);
-                self.finder.pairs(model, &to.x);
-                if self.residue != 0.0 || t <= from.t || !self.finder.found.is_empty() {
-                    break true;
-                }
-            }
-            frames += 1;
-            if t >= goal || frames >= most {
-                break false;
-            }
-        };
-        to.t = t;
-        if swapped {
-            std::mem::swap(&mut self.start, &mut self.end);
-        }
-        if frames > 0 {
-            log.tallies.frames += frames;
-            log.tallies.evaluations += frames * evaluations;
-            log.contacts.clear();
-            log.probes.clear();
-            self.step = dt;
-        }
-        if touched {
-            self.search = Search::Whole;
-            self.probes.clear();
-            self.stage = Stage::Complete;
-            self.trial = Some(dt);
-        }
-        (frames + u64::from(touched)) * (n as u64 + evaluations)
     }
 }

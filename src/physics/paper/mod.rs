@@ -21,6 +21,7 @@
 //! deep as it is until it separates. All that follows is a function of t, x, v, the pending impulses and the settings,
 //! so that a run can be continued from those, bit for bit.
 
+mod cruise;
 mod frame;
 mod response;
 mod trial;
