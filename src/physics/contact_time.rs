@@ -370,11 +370,12 @@ impl Search<'_> {
         (at.gap <= self.rounding(t) && self.approaching(t, &at)).then_some(t)
     }
 
-    /// v_n < 0; or v_n = 0 to rounding and about to become negative: the apex of what overlaps, and rest.
+    /// v_n < 0; or v_n = 0 (at a later time: to rounding) and about to become negative: rest, and the apex of what
+    /// overlaps.
     fn approaching(&self, t: f64, at: &Touch) -> bool {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
-        let noise = 1e-13 * (self.path.v.length() + v.length());
+        let noise = if t > 0.0 { 1e-13 * (self.path.v.length() + v.length()) } else { 0.0 };
         let bends = || at.normal.dot(self.path.a) + curvature(self.face, at.part, at.normal, v, self.r);
         closing < 0.0 || closing <= noise && bends() < 0.0
     }
