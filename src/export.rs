@@ -105,9 +105,8 @@ pub struct EventRow {
 }
 
 impl Row for EventRow {
-    const COLUMNS: &'static [&'static str] = &[
-        "time", "kind", "a", "b", "px", "py", "pz", "nx", "ny", "nz", "approach_speed", "impulse", "degree", "class",
-    ];
+    const COLUMNS: &'static [&'static str] =
+        &["time", "kind", "a", "b", "px", "py", "pz", "nx", "ny", "nz", "approach_speed", "impulse", "degree", "class"];
 }
 
 impl From<&Contact> for EventRow {
@@ -256,8 +255,7 @@ mod tests {
     fn no_number_has_more_digits_than_it_needs() {
         let text = written(Format::Csv, &HARD.map(row));
         let times: Vec<_> = text.lines().skip(1).filter_map(|line| line.split(',').next()).collect();
-        let shortest =
-            ["1e300", "5e-324", "-0.0", "3.0", "0.1", "1.7976931348623157e308", "2.2250738585072014e-308"];
+        let shortest = ["1e300", "5e-324", "-0.0", "3.0", "0.1", "1.7976931348623157e308", "2.2250738585072014e-308"];
         assert_eq!(times[..7], shortest);
     }
 

@@ -176,7 +176,11 @@ pub fn bracketed(c: &[f64], lo: f64, hi: f64) -> f64 {
         if f == 0.0 {
             return t;
         }
-        if (f < 0.0) == rising { lo = t } else { hi = t }
+        if (f < 0.0) == rising {
+            lo = t
+        } else {
+            hi = t
+        }
         let newton = t - f / slope(c, t);
         let step = (newton - t).abs();
         let next = if newton > lo && newton < hi && step < 0.5 * last_step { newton } else { lo + 0.5 * (hi - lo) };

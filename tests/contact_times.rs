@@ -93,7 +93,10 @@ impl Case<'_> {
         let end = found.unwrap_or(self.horizon);
         let (deepest, at) = self.deepest(end);
         if deepest < start - self.rounding {
-            return Err(format!("found {found:?}, but the gap is already {deepest:e} at {at} (rounding {:e})", self.rounding));
+            return Err(format!(
+                "found {found:?}, but the gap is already {deepest:e} at {at} (rounding {:e})",
+                self.rounding
+            ));
         }
         let Some(t) = found else { return Ok(()) };
         let gap = (self.gap)(t);
@@ -127,7 +130,8 @@ fn check_wall(seed: u64, met: &mut [u32; 4]) -> Result<(), String> {
     let horizon = random.decade(-2.0, 2.0);
     let center = random.vector() * size * random.decade(-1.0, 2.0);
     let s1 = random.vector().normalize_or(DVec3::X) * size;
-    let s2 = (random.vector().normalize_or(DVec3::Y) + s1.any_orthonormal_vector() * 0.5) * size * random.decade(-1.5, 1.5);
+    let s2 =
+        (random.vector().normalize_or(DVec3::Y) + s1.any_orthonormal_vector() * 0.5) * size * random.decade(-1.5, 1.5);
     if s1.cross(s2).length() < 1e-3 * s1.length() * s2.length() {
         return Ok(());
     }

@@ -12,7 +12,19 @@ const PLAN: &[(&str, &[&str])] = &[
     ("main", &["cli"]),
     (
         "cli",
-        &["app", "export", "frame", "geometry", "physics", "scene", "snapshot", "terminal", "text_mode", "view", "worker"],
+        &[
+            "app",
+            "export",
+            "frame",
+            "geometry",
+            "physics",
+            "scene",
+            "snapshot",
+            "terminal",
+            "text_mode",
+            "view",
+            "worker",
+        ],
     ),
     ("terminal", &["app", "frame", "scene", "view"]),
     ("app", &["frame", "geometry", "physics", "scene", "snapshot", "view", "worker"]),
@@ -55,12 +67,37 @@ const BLIND: &[&str] = &["physics", "geometry", "roots", "snapshot", "view"];
 
 /// What only a mathematical library computes: its last bit differs from machine to machine.
 const INEXACT: &[&str] = &[
-    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2", "exp_m1", "ln",
-    "ln_1p", "log2", "log10", "powf", "powi", "cbrt", "hypot", "mul_add", "angle_between", "slerp", "to_radians",
+    "sin",
+    "cos",
+    "tan",
+    "sin_cos",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "exp2",
+    "exp_m1",
+    "ln",
+    "ln_1p",
+    "log2",
+    "log10",
+    "powf",
+    "powi",
+    "cbrt",
+    "hypot",
+    "mul_add",
+    "angle_between",
+    "slerp",
+    "to_radians",
 ];
 
 /// What may stand in no product file.
-const UNFINISHED: &[&str] = &["unwrap", "todo!", "unimplemented!", "dbg!", "println!", "eprintln!", "print!", "eprint!"];
+const UNFINISHED: &[&str] =
+    &["unwrap", "todo!", "unimplemented!", "dbg!", "println!", "eprintln!", "print!", "eprint!"];
 
 /// Files that may be longer than [`FILE`], and why.
 const LONG_FILES: &[(&str, &str)] = &[];

@@ -106,8 +106,7 @@ impl File {
 
     /// What it says, outside its tests.
     pub(crate) fn contents(&self) -> Contents {
-        let mut reader =
-            Reader { scope: self.module(), children: self.children(), contents: Contents::default() };
+        let mut reader = Reader { scope: self.module(), children: self.children(), contents: Contents::default() };
         reader.visit_file(&self.syntax);
         reader.contents
     }

@@ -7,9 +7,9 @@
 use glam::DVec3;
 
 use crate::geometry::Bounds;
+use crate::physics::State;
 use crate::physics::contact_time::{Path, quadratic_fall};
 use crate::physics::model::Model;
-use crate::physics::State;
 
 /// Cubes are not counted beyond this: the outermost reach to infinity, where coordinates could not tell them apart.
 const OUTERMOST: i32 = 1 << 28;

@@ -236,7 +236,7 @@ impl<'a> Motion<'a> {
 }
 
 /// A contact as `support` sees it, and its gap, m.
-fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
+pub(super) fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
     let body = &bodies[contact.a];
     match contact.on {
         On::Wall(face, part) => {

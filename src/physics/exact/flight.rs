@@ -5,9 +5,9 @@
 
 use glam::DVec3;
 
+use crate::physics::State;
 use crate::physics::contact_time::Path;
 use crate::physics::model::{Model, Pull};
-use crate::physics::State;
 
 /// Where a sphere was at its own time: 64 bytes, one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::contact::Key;
+use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::{Class, Contact, Kind, Model, Stall};
@@ -75,9 +75,9 @@ impl Meeting {
 impl Exact {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
-        let instant = &mut self.instant;
-        if time > self.now {
-            self.now = time;
+        let Exact { instant, now, .. } = self;
+        if time > *now {
+            *now = time;
             instant.events = 0;
             if !instant.impacts.is_empty() {
                 instant.impacts.clear();
@@ -86,14 +86,16 @@ impl Exact {
         instant.events += 1;
         instant.stretch += 1;
         if instant.events > MOST_AT_ONCE + 1000 * spheres as u64 {
-            return Err(self.no_progress(instant.events));
+            let events = instant.events;
+            return Err(self.no_progress(events));
         }
         if instant.stretch > STRETCH + 1000 * spheres as u64 {
             // a nanosecond of the time scale: what a hundred million such stretches would still not leave behind
-            if self.now - instant.since < 1e-9 * self.now.abs().max(CLOCK) {
-                return Err(self.no_progress(instant.stretch));
+            if *now - instant.since < 1e-9 * now.abs().max(CLOCK) {
+                let events = instant.stretch;
+                return Err(self.no_progress(events));
             }
-            (instant.stretch, instant.since) = (0, self.now);
+            (instant.stretch, instant.since) = (0, *now);
         }
         Ok(())
     }

@@ -3,21 +3,19 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Exact;
-use super::curved::Arc;
+use super::curved::{Body, Closed, Ended, On, advance, step};
 use super::flight::Flight;
 use super::impact::Meeting;
-use super::rest::{Group, Motion, On, Rest, Settled, part_ahead, part_end};
-use crate::physics::contact_time::Part;
+use super::parts::{part_ahead, part_end};
+use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
+use crate::physics::contact_time::Part;
 use crate::physics::log::Log;
 use crate::physics::support::{Fate, islands};
 use crate::physics::{Class, Kind, Model, Stall, State};
 
 /// No island.
 const NONE: u32 = u32::MAX;
-
-/// How far a parabola may depart from the arc it stands for: 1e-13 of the radius, below what predictions resolve.
-const DEPARTURE: f64 = 1e-13;
 
 /// A contact that rests, or is about to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,16 +38,67 @@ struct Island {
     curve: Option<Curve>,
 }
 
-/// A curved motion and the chord that stands for it.
+/// A step of a curved motion, for which a chord parabola stands.
 #[derive(Debug, Clone)]
 struct Curve {
-    arc: Box<Arc>,
-    /// When the arc began, s.
-    began: f64,
-    /// When the chord began, s.
+    /// The spheres at its beginning.
+    start: Vec<Body>,
+    contacts: Vec<Contact>,
+    /// When it began, s; infinite once the spheres have been brought off it.
     from: f64,
     /// Its length, s.
-    chord: f64,
+    length: f64,
+    /// Whether a contact lets go or changes its part at the end.
+    changes: bool,
+}
+
+/// A contact of an island: its sphere by its place there, and what it touches.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    a: usize,
+    other: Other,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Other {
+    Wall(usize, Part),
+    Place(usize),
+}
+
+impl Contact {
+    fn closed(self, model: &Model) -> Closed<'_> {
+        let on = match self.other {
+            Other::Wall(wall, part) => On::Wall(&model.faces[wall], part),
+            Other::Place(place) => On::Body(place),
+        };
+        Closed { a: self.a, on }
+    }
+}
+
+fn closed<'a>(model: &'a Model, contacts: &[Contact]) -> Vec<Closed<'a>> {
+    contacts.iter().map(|contact| contact.closed(model)).collect()
+}
+
+impl Curve {
+    /// The next step, from the spheres as they are now; and where it leads.
+    fn next(model: &Model, start: Vec<Body>, contacts: Vec<Contact>, now: f64) -> (Curve, Vec<Body>) {
+        let all = closed(model, &contacts);
+        let h = step(&start, &all);
+        let mut end = start.clone();
+        let (length, changes) = match advance(&mut end, &all, h) {
+            Ended::Kept => (h, false),
+            Ended::Changed(time) => (time, true),
+        };
+        (Curve { start, contacts, from: now, length, changes }, end)
+    }
+
+    /// The spheres `time` (s) after the step's beginning, by the same step, shortened.
+    fn at(&self, model: &Model, time: f64) -> Vec<Body> {
+        let mut bodies = self.start.clone();
+        // the end is known to change; before, nothing does
+        advance(&mut bodies, &closed(model, &self.contacts), time.min(self.length));
+        bodies
+    }
 }
 
 /// All resting contacts.
@@ -206,9 +255,9 @@ impl Rests {
             if curve.from > state.t {
                 continue;
             }
-            let group = curve.arc.at(model, state.t - curve.began);
-            for (place, &i) in group.spheres.iter().enumerate() {
-                (state.x[i], state.v[i]) = (group.x[place], group.v[place]);
+            let bodies = curve.at(model, state.t - curve.from);
+            for (body, &i) in bodies.iter().zip(&island.spheres) {
+                (state.x[i], state.v[i]) = (body.x, body.v);
             }
         }
     }
@@ -218,19 +267,18 @@ impl Exact {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
     pub(super) fn bring(&mut self, model: &Model, i: usize) {
         let now = self.now;
-        let curved = self.rests.island(i).and_then(|island| island.curve.as_ref()).filter(|curve| curve.from < now);
-        let Some(group) = curved.map(|curve| curve.arc.at(model, now - curve.began)) else {
+        let island = self.rests.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now));
+        let Some(Island { spheres, curve: Some(curve), .. }) = island else {
             self.flight.bring(i, now);
             return;
         };
-        for (place, &sphere) in group.spheres.iter().enumerate() {
-            self.flight.rewrite(sphere, now, group.x[place], group.v[place]);
+        let bodies = curve.at(model, now - curve.from);
+        // the lines are off the chord now: it must not be followed, nor the step be read, any longer
+        curve.from = f64::INFINITY;
+        for (body, &sphere) in bodies.iter().zip(spheres.iter()) {
+            self.flight.rewrite(sphere, now, body.x, body.v);
         }
         self.rests.dirty.push(i);
-        // the lines are off the old chord: it must not be followed, nor the arc be read, any longer
-        if let Some(curve) = self.rests.curve_mut(i) {
-            curve.from = f64::INFINITY;
-        }
     }
 
     /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
@@ -264,10 +312,10 @@ impl Exact {
         let now = self.now;
         let Some(island) = self.rests.island(leader) else { return };
         let spheres = island.spheres.clone();
-        if let Some(curve) = island.curve.clone()
-            && now < curve.began + curve.arc.length
-        {
-            return self.next_chord(model, &spheres, curve);
+        if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
+            let (next, end) = Curve::next(model, curve.at(model, curve.length), curve.contacts, now);
+            self.follow(&spheres, next, &end);
+            return self.moved(model, &spheres);
         }
         for &i in &spheres {
             self.bring(model, i);
@@ -284,52 +332,33 @@ impl Exact {
         self.rests.dirty.push(leader);
     }
 
-    fn next_chord(&mut self, model: &Model, spheres: &[usize], mut curve: Curve) {
-        let group = curve.arc.at(model, self.now - curve.began);
-        let end = self.chord(model, &group, &mut curve);
-        if let Some(island) = self.rests.island_mut(spheres[0]) {
-            (island.end, island.curve) = (end, Some(curve));
+    /// Lays chord parabolas along a step that leads to `end`, and gives it to the spheres' island.
+    fn follow(&mut self, spheres: &[usize], curve: Curve, end: &[Body]) {
+        let h = curve.length;
+        for ((&i, start), end) in spheres.iter().zip(&curve.start).zip(end) {
+            self.flight.rewrite(i, self.now, start.x, start.v);
+            if h > 0.0 {
+                self.flight.accelerate(i, (end.x - start.x - start.v * h) * (2.0 / (h * h)));
+            }
         }
+        let until = (self.now + h).max(self.now.next_up());
+        match self.rests.island_mut(spheres[0]) {
+            Some(island) => (island.end, island.curve) = (until, Some(curve)),
+            None => {
+                let island = Island { spheres: spheres.to_vec(), end: until, curve: Some(curve) };
+                self.rests.found(island, self.now);
+            }
+        }
+    }
+
+    /// The motion of these spheres has changed: all their plans are made anew.
+    fn moved(&mut self, model: &Model, spheres: &[usize]) {
         for &i in spheres {
             self.stamps[i] = self.stamps[i].wrapping_add(1);
         }
         for &i in spheres {
             self.predict(model, i);
         }
-    }
-
-    /// Lays parabolas along an arc from `group` (now) on, as far as they stay close; returns until when, s.
-    fn chord(&mut self, model: &Model, group: &Group, curve: &mut Curve) -> f64 {
-        let start = self.now - curve.began;
-        let left = curve.arc.length - start;
-        let mut h = curve.chord.min(left);
-        let allowed = |i: usize| {
-            let size = group.x[i].abs().max_element();
-            (DEPARTURE * model.radii[group.spheres[i]]).max(16.0 * f64::EPSILON * size)
-        };
-        for _ in 0..200 {
-            let (middle, end) = (curve.arc.at(model, start + 0.5 * h), curve.arc.at(model, start + h));
-            let bend = |i: usize| (end.x[i] - group.x[i] - group.v[i] * h) * (2.0 / (h * h));
-            let off = |i: usize| {
-                let chord = group.x[i] + (group.v[i] + bend(i) * (0.25 * h)) * (0.5 * h);
-                (chord - middle.x[i]).length() / allowed(i)
-            };
-            let worst = (0..group.spheres.len()).map(off).fold(0.0, f64::max);
-            if worst <= 1.0 || self.now + 0.5 * h == self.now {
-                for (place, &i) in group.spheres.iter().enumerate() {
-                    self.flight.rewrite(i, self.now, group.x[place], group.v[place]);
-                    self.flight.accelerate(i, bend(place));
-                }
-                curve.from = self.now;
-                curve.chord = if worst < 0.1 { 2.0 * h } else { h };
-                break;
-            }
-            // departure grows with h³
-            h *= if worst > 64.0 { 0.25 } else { 0.5 };
-        }
-        // the last chord ends where the arc does, to the bit
-        let end = if h >= left { curve.began + curve.arc.length } else { self.now + h };
-        end.max(self.now.next_up())
     }
 
     /// No contact is left at this instant: decides what holds, island by island.
@@ -345,8 +374,8 @@ impl Exact {
         let keys: BTreeSet<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
         let mut open: Vec<Vec<Key>> = vec![keys.into_iter().collect()];
         while let Some(keys) = open.pop() {
-            for group in self.groups(&keys) {
-                if let Some(left) = self.settle_group(model, log, &group)? {
+            for connected in self.groups(&keys) {
+                if let Some(left) = self.settle_island(model, log, &connected)? {
                     open.push(left);
                 }
             }
@@ -356,11 +385,8 @@ impl Exact {
                 self.flight.accelerate(i, model.acceleration(i));
             }
             self.finite(i)?;
-            self.stamps[i] = self.stamps[i].wrapping_add(1);
         }
-        for &i in &spheres {
-            self.predict(model, i);
-        }
+        self.moved(model, &spheres);
         Ok(())
     }
 
@@ -371,44 +397,61 @@ impl Exact {
     }
 
     /// Settles connected contacts; returns those that are left if some opened, for they may have fallen apart.
-    fn settle_group(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
-        let mut group = self.group(keys);
-        let settled = group.settle(model);
+    fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
+        let (spheres, mut bodies, contacts) = self.island_of(model, keys);
+        let settled = settle(&mut bodies, &closed(model, &contacts));
         if !settled.converged {
             return Err(self.not_held(keys));
         }
-        for (place, &i) in group.spheres.iter().enumerate() {
-            self.flight.rewrite(i, self.now, group.x[place], group.v[place]);
+        for (place, &i) in spheres.iter().enumerate() {
+            self.flight.rewrite(i, self.now, bodies[place].x, bodies[place].v);
             self.flight.accelerate(i, settled.a[place]);
         }
         self.announce(model, log, keys, &settled);
-        let (opening, kept): (Vec<_>, Vec<_>) =
-            keys.iter().zip(&settled.fate).partition(|&(_, &fate)| fate == Fate::Opening);
-        for (&key, _) in &opening {
+        let pick = |opening: bool| {
+            let of = |(_, fate): &(&Key, &Fate)| (**fate == Fate::Opening) == opening;
+            keys.iter().zip(&settled.fate).filter(of).map(|(&key, _)| key).collect::<Vec<Key>>()
+        };
+        let (opening, kept) = (pick(true), pick(false));
+        for &key in &opening {
             self.release(model, log, key);
             self.part(model, key);
         }
         if !opening.is_empty() {
-            return Ok(Some(kept.into_iter().map(|(&key, _)| key).collect()));
+            return Ok(Some(kept));
         }
-        self.found_island(model, group, &settled);
+        if settled.curved {
+            let (curve, end) = Curve::next(model, bodies, contacts, self.now);
+            self.follow(&spheres, curve, &end);
+        } else {
+            let end = self.parts_end(model, &spheres, &contacts);
+            self.rests.found(Island { spheres, end, curve: None }, self.now);
+        }
         Ok(None)
     }
 
-    fn group(&self, keys: &[Key]) -> Group {
-        let mut spheres: Vec<usize> =
-            keys.iter().flat_map(|&(kind, a, b)| [Some(a), (kind == Kind::Pair).then_some(b)]).flatten().collect();
-        spheres.sort_unstable();
-        spheres.dedup();
-        let rest = |&(kind, a, b): &Key| {
-            let on = match kind {
-                Kind::Wall => On::Wall(b, self.rests.held.get(&(kind, a, b)).map_or(Part::Face, |held| held.part)),
-                Kind::Pair => On::Sphere(b),
-            };
-            Rest { a, on }
+    /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
+    fn island_of(&self, model: &Model, keys: &[Key]) -> (Vec<usize>, Vec<Body>, Vec<Contact>) {
+        let named = |&(kind, a, b): &Key| [Some(a), (kind == Kind::Pair).then_some(b)];
+        let spheres: BTreeSet<usize> = keys.iter().flat_map(named).flatten().collect();
+        let spheres: Vec<usize> = spheres.into_iter().collect();
+        let place = |i: usize| spheres.partition_point(|&other| other < i);
+        let contact = |&key: &Key| {
+            let (kind, a, b) = key;
+            let part = self.rests.held.get(&key).map_or(Part::Face, |held| held.part);
+            let other = if kind == Kind::Wall { Other::Wall(b, part) } else { Other::Place(place(b)) };
+            Contact { a: place(a), other }
         };
-        let (x, v) = spheres.iter().map(|&i| (self.flight.lines[i].x, self.flight.lines[i].v)).unzip();
-        Group { rests: keys.iter().map(rest).collect(), spheres, x, v }
+        let contacts = keys.iter().map(contact).collect();
+        let body = |&i: &usize| Body {
+            x: self.flight.lines[i].x,
+            v: self.flight.lines[i].v,
+            applied: model.acceleration(i),
+            inverse_mass: model.inverse_masses[i],
+            r: model.radii[i],
+        };
+        let bodies = spheres.iter().map(body).collect();
+        (spheres, bodies, contacts)
     }
 
     /// Writes a `rest` row for every contact that begins to carry a load.
@@ -427,25 +470,12 @@ impl Exact {
         }
     }
 
-    /// From now on these spheres move together.
-    fn found_island(&mut self, model: &Model, group: Group, settled: &Settled) {
-        let spheres = group.spheres.clone();
-        if settled.motion != Motion::Curved {
-            let end = self.parts_end(model, &group);
-            return self.rests.found(Island { spheres, end, curve: None }, self.now);
-        }
-        let arc = Box::new(Arc::take(model, &group, settled, 0.0));
-        let mut curve = Curve { chord: arc.length, arc, began: self.now, from: self.now };
-        let end = self.chord(model, &group, &mut curve);
-        self.rests.found(Island { spheres, end, curve: Some(curve) }, self.now);
-    }
-
-    /// When the first foot of a group on parabolas comes to the end of its part, s.
-    fn parts_end(&self, model: &Model, group: &Group) -> f64 {
+    /// When the first foot of an island on parabolas comes to the end of its part, s.
+    fn parts_end(&self, model: &Model, spheres: &[usize], contacts: &[Contact]) -> f64 {
         let mut first = f64::INFINITY;
-        for rest in &group.rests {
-            if let On::Wall(wall, part) = rest.on {
-                let path = self.flight.path(rest.a, self.now);
+        for contact in contacts {
+            if let Other::Wall(wall, part) = contact.other {
+                let path = self.flight.path(spheres[contact.a], self.now);
                 if let Some(t) = part_end(&model.faces[wall], part, &path, first) {
                     first = first.min(t);
                 }
@@ -469,9 +499,5 @@ impl Rests {
     fn island_mut(&mut self, i: usize) -> Option<&mut Island> {
         let number = *self.island_of.get(i)?;
         self.islands.get_mut(number as usize)?.as_mut()
-    }
-
-    fn curve_mut(&mut self, i: usize) -> Option<&mut Curve> {
-        self.island_mut(i)?.curve.as_mut()
     }
 }

@@ -12,6 +12,7 @@ mod flight;
 mod impact;
 mod islands;
 mod load;
+mod parts;
 mod prediction;
 mod queue;
 mod rest;
@@ -25,9 +26,9 @@ use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State
 use cells::Cells;
 use flight::Flight;
 use impact::Instant;
+use islands::Rests;
 use prediction::Plan;
 use queue::Queue;
-use islands::Rests;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -178,7 +179,7 @@ impl Exact {
             let time = self.plans[i].contact.min(self.plans[i].crossing).min(self.rests.end_led_by(i));
             self.rank(time, i) < self.rank(time, j)
         });
-        let rank = if i < self.plans.len() { self.rank(time, i) } else { (3, 0, 0) };
+        let rank = if time < f64::INFINITY { self.rank(time, i) } else { (3, 0, 0) };
         if self.rests.is_dirty() && (time > self.now || rank.0 > 1) {
             self.settle(model, log)?;
             return Ok(Turn::Event);

@@ -103,17 +103,10 @@ impl Exact {
 
     /// Looks at some walls, in ascending order; returns how many.
     #[inline]
-    fn walls(
-        &self,
-        model: &Model,
-        i: usize,
-        path: &Path,
-        walls: impl Iterator<Item = usize>,
-        plan: &mut Plan,
-    ) -> u64 {
+    fn walls(&self, model: &Model, i: usize, path: &Path, walls: impl Iterator<Item = usize>, plan: &mut Plan) -> u64 {
         let mut count = 0;
         for wall in walls {
-            if self.rests.holds(Kind::Wall, i, wall) {
+            if self.rests.holds((Kind::Wall, i, wall)) {
                 continue;
             }
             count += 1;
@@ -141,7 +134,7 @@ impl Exact {
         let Some(t) = found else { return 1 };
         let time = self.now + t;
         if time < plan.contact || time == plan.contact && self.wins_tie(i, j, plan) {
-            if self.rests.holds(Kind::Pair, i.min(j), i.max(j)) {
+            if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
                 return 0;
             }
             (plan.contact, plan.kind) = (time, Kind::Pair);

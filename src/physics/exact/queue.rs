@@ -43,11 +43,15 @@ impl Queue {
         }
     }
 
-    /// The earliest time and its sphere; among equal times the sphere that `before` puts first.
+    /// The earliest time and its sphere; among equal times the sphere that `before` puts first; sphere 0
+    /// if nothing ever happens.
     #[inline]
     pub(super) fn first(&self, before: impl Fn(usize, usize) -> bool) -> (f64, usize) {
         let top = self.levels.len() - 1;
         let time = least(&self.levels[top]);
+        if time == f64::INFINITY {
+            return (time, 0);
+        }
         let mut best = usize::MAX;
         self.descend(top, 0, time, &mut |i| {
             if best == usize::MAX || before(i, best) {
