@@ -166,7 +166,7 @@ impl Exact {
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
-        match self.class(model, &meeting) {
+        match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
                 self.rests.propose(model, &self.flight, self.now, &meeting);
@@ -176,7 +176,7 @@ impl Exact {
         }
     }
 
-    fn class(&mut self, model: &Model, meeting: &Meeting) -> Class {
+    fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Class {
         let (kind, ..) = meeting.key;
         let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
         let pressed = meeting.a_n < 0.0;
@@ -194,6 +194,7 @@ impl Exact {
             let count = self.instant.impacts.entry(meeting.key).or_default();
             *count += 1;
             if *count > COLLAPSE {
+                log.tallies.collapses += 1;
                 return Class::Rest;
             }
         }
