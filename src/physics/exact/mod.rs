@@ -12,7 +12,7 @@ mod flight;
 mod impact;
 mod islands;
 mod load;
-mod parts;
+
 mod prediction;
 mod queue;
 mod rest;
@@ -22,6 +22,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::log::Log;
+use super::parts;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::Cells;
 use flight::Flight;
