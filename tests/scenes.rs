@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use carom::scene::{self, Scene, builtin};
+use carom::scene::{self, Method, Scene, builtin};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -93,7 +93,8 @@ fn what_a_scene_leaves_out_has_the_paper_s_value() {
     assert_eq!(scene.duration, 20.0);
 }
 
-/// A refused file tells in its first line what must be said of it: `// expect: …`, without the file's name.
+/// A refused file tells in its first line what must be said of it: `// expect: …`, without the file's name; `{methods}`
+/// stands for the methods there are.
 #[test]
 fn every_refused_file_has_its_exact_message() {
     let paths = files("tests/refused", "ron");
@@ -104,7 +105,192 @@ fn every_refused_file_has_its_exact_message() {
         let expected = text.lines().next().and_then(|line| line.strip_prefix("// expect: "));
         let expected = expected.unwrap_or_else(|| panic!("{name} does not say what it expects"));
         let said = scene::parse(&text, "FILE").map(|_| "it was accepted".to_owned()).unwrap_or_else(|e| e.to_string());
+        let methods: Vec<_> = Method::ALL.iter().map(|method| format!("`{}`", method.name())).collect();
+        let expected = expected.replace("{methods}", &methods.join(", "));
         assert_eq!(said, format!("FILE:{expected}"), "in {name}");
+    }
+}
+
+#[test]
+fn a_touch_and_an_overlap_within_a_billionth_of_the_radius_are_allowed() {
+    let pair = |x: &str| {
+        format!(
+            "Scene(spheres: [Sphere(x: (0, 0, 0), mass: 1, radius: 1), Sphere(x: ({x}, 0, 0), mass: 1, radius: 1)])"
+        )
+    };
+    assert!(parsed(&pair("2")).is_ok() && parsed(&pair("1.999999999")).is_ok());
+    let message = refusal(&pair("1.9999999"));
+    assert!(message.contains("sphere 0 (spheres[0]) overlaps sphere 1 (spheres[1]) by 1e-7 m"), "{message}");
+    let floor = |y: &str| {
+        format!(
+            "Scene(walls: [Wall(center: (0, 0, 0), s1: (9, 0, 0), s2: (0, 0, 9))], spheres: [Sphere(x: (0, {y}, 0), mass: 1, radius: 1)])"
+        )
+    };
+    assert!(parsed(&floor("1")).is_ok() && parsed(&floor("0.9999999995")).is_ok() && parsed(&floor("-1")).is_ok());
+    assert!(refusal(&floor("0.99999999")).contains("overlaps wall 0 (walls[0]) by 1e-8 m"));
+}
+
+#[test]
+fn the_extremes_that_a_run_must_stand_are_accepted() {
+    for sphere in [
+        "x: (0, 0, 0), mass: 1, radius: 1e-9",
+        "x: (0, 0, 0), mass: 1, radius: 1e9",
+        "x: (1e9, 1e9, -1e9), mass: 1e12, radius: 0.5",
+        "x: (0, 0, 0), v: (1e8, 0, 0), mass: 1e-6, radius: 0.5",
+    ] {
+        assert!(parsed(&format!("Scene(spheres: [Sphere({sphere})])")).is_ok(), "{sphere}");
+    }
+    for solver in ["dt: 1e-12", "dt: 1e6", "tolerance: 0", "tolerance: 1e300"] {
+        assert!(parsed(&format!("Scene(solver: ({solver}))")).is_ok(), "{solver}");
+    }
+}
+
+#[test]
+fn a_dust_grain_beside_a_planet_is_checked_as_well() {
+    let grain = |height: &str| {
+        format!(
+            "Scene(spheres: [Sphere(x: (0, -1e6, 0), mass: 1, radius: 1e6), Lattice(origin: (0, {height}, 0), counts: (100, 1, 100), spacing: 1e-3, mass: 1, radius: 1e-4)])"
+        )
+    };
+    assert!(parsed(&grain("0.1")).is_ok());
+    // Overlaps count from a billionth of both radii together: a millimetre beside a planet of this size.
+    assert!(refusal(&grain("-0.01")).contains("by 0.0101 m"));
+}
+
+#[test]
+fn a_million_spheres_are_made_and_checked() {
+    // Compared each with each they would take hours, so that this test ends is its point.
+    let crystal =
+        "Lattice(origin: (0, 0, 0), counts: (100, 100, 100), spacing: 1, jitter: 0.05, seed: 1, mass: 1, radius: 0.47)";
+    assert_eq!(parsed(&format!("Scene(spheres: [{crystal}])")).map(|scene| scene.spheres.len()), Ok(1_000_000));
+    // A packing fraction of 0.3, dense enough for the lattice.
+    let gas = "Gas(min: (0, 0, 0), max: (100, 100, 100), count: 1e6, seed: 1, speed: 1, mass: 1, radius: 0.415)";
+    let walls = "Room(min: (0, 0, 0), max: (100, 100, 100))";
+    let scene = parsed(&format!("Scene(walls: [{walls}], spheres: [{gas}])")).expect("it fits");
+    let momentum = scene.spheres.iter().map(|sphere| sphere.v * sphere.mass).sum::<DVec3>();
+    // A million numbers near 1, each rounded to 1e-16 and summed near 1e3.
+    assert!(momentum.length() < 1e-6, "{momentum}");
+    let square = scene.spheres.iter().map(|sphere| sphere.v * sphere.v).sum::<DVec3>() / 1e6;
+    assert!((square - DVec3::ONE).abs().max_element() < 1e-9, "{square}");
+}
+
+#[test]
+fn a_seed_means_the_same_scene_and_another_seed_another() {
+    let gas = |seed: u64| {
+        let text = format!(
+            "Scene(spheres: [Gas(min: (0, 0, 0), max: (9, 9, 9), count: 50, seed: {seed}, speed: 2, mass: 1, radius: 0.3)])"
+        );
+        parsed(&text).expect("it fits").spheres
+    };
+    assert_eq!(gas(u64::MAX), gas(u64::MAX));
+    assert_ne!(gas(1), gas(2));
+}
+
+#[test]
+fn the_666_lattice_holds_the_energy_that_its_origin_publishes() {
+    let scene = scene::open("elastic-666").expect("it is built in").scene;
+    let energy: f64 = scene.spheres.iter().map(|sphere| -sphere.mass * scene.gravity.dot(sphere.x)).sum();
+    assert_eq!(scene.spheres.len(), 216);
+    // 216 · 10 kg · 9.81 m/s² · (1.101 + 0.525 + 0.0005) m = 34464.7 J; the jitter's mean is uncertain by 2e-5 m, or 0.4 J.
+    assert!((energy - 34465.0).abs() < 1.5, "{energy}");
+}
+
+#[test]
+fn without_a_view_the_walls_are_shown_or_twice_the_spheres_if_the_walls_reach_far_beyond() {
+    let view = |walls: &str| {
+        let scene = parsed(&format!("Scene(walls: [{walls}], spheres: [Sphere(x: (0, 1, 0), mass: 1, radius: 0.5)])"));
+        scene.map(|scene| (scene.view.min.to_array(), scene.view.max.to_array()))
+    };
+    assert_eq!(view("Room(min: (-5, 0, -5), max: (5, 10, 5))"), Ok(([-5.0, 0.0, -5.0], [5.0, 10.0, 5.0])));
+    let twice = Ok(([-1.0, 0.0, -1.0], [1.0, 2.0, 1.0]));
+    assert_eq!(view("Wall(center: (0, 0, 0), s1: (1000, 0, 0), s2: (0, 0, 1000))"), twice);
+    assert_eq!(view(""), twice);
+    for builtin in builtin::ALL {
+        let view = scene::open(builtin.name).expect("it is built in").scene.view;
+        assert!(view.min.cmplt(view.max).all(), "{}: {view:?}", builtin.name);
+    }
+}
+
+#[test]
+fn numbers_may_be_written_as_integers_and_optional_fields_without_some() {
+    let plain = "Scene(walls: [Room(min: (-1, 0, -1), max: (1, 2, 1), color: (1, 0, 0))], duration: 5)";
+    let some = "#![enable(implicit_some)]\nScene(walls: [Room(min: (-1.0, 0.0, -1.0), max: (1.0, 2.0, 1.0), color: Some((1.0, 0.0, 0.0)))], duration: Some(5.0))";
+    assert_eq!(parsed(plain), parsed(some));
+}
+
+#[test]
+fn what_is_allowed_but_hardly_meant_is_warned_of() {
+    let warned = |text: &str, about: &str| {
+        let warnings = scene::warnings(&parsed(text).expect("it is allowed"));
+        assert!(warnings.iter().any(|warning| warning.contains(about)), "{text}: {warnings:?}");
+    };
+    let ball = "Sphere(x: (0, 1, 0), mass: 1, radius: 0.5)";
+    warned(
+        &format!(
+            "Scene(contact: (restitution: 1), walls: [Room(min: (-1, 0, -1), max: (1, 2, 1))], spheres: [{ball}])"
+        ),
+        "set rest_speed to 0",
+    );
+    warned("Scene()", "no spheres");
+    warned(
+        &format!("Scene(view: (min: (5, 5, 5), max: (6, 6, 6)), spheres: [{ball}])"),
+        "sphere 0 is outside the view box",
+    );
+    warned(
+        &format!("Scene(walls: [Room(min: (2, 0, 2), max: (9, 9, 9))], spheres: [{ball}])"),
+        "outside the box of all walls",
+    );
+    warned("Scene(spheres: [Sphere(x: (0, 0, 0), v: (1e3, 0, 0), mass: 1, radius: 0.5)])", "lower dt");
+    warned("Scene(spheres: [Sphere(x: (1e9, 0, 0), mass: 1, radius: 1e-3)])", "rounding");
+}
+
+#[test]
+fn a_built_in_name_wins_and_an_unknown_one_hears_of_its_neighbours() {
+    assert_eq!(scene::open("paper-3").map(|opened| opened.path), Ok(None));
+    let said = |name: &str| scene::open(name).expect_err("there is none").to_string();
+    assert!(
+        said("paper-9")
+            .starts_with("paper-9: there is no built-in scene and no file of that name; like it are `paper-0`")
+    );
+    assert!(said("no such thing at all").contains("there are `paper-0`, `paper-1`"));
+    assert!(said("./paper-3").contains("the file can't be read: No such file"), "a path is no name");
+    assert!(said("paper-3.ron").contains("the file can't be read"));
+    assert!(said("\u{1b}[2J").starts_with('\u{fffd}') && is_printable(&said("a\u{202e}b")));
+    assert!(is_printable(&said(&"x".repeat(3_000_000))));
+}
+
+#[test]
+fn what_is_no_scene_file_is_refused_without_reading_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let said = |name: &str| scene::open(&path(name)).expect_err("it is refused").to_string();
+    assert!(said(".").ends_with("it is a folder; allowed is a scene file"));
+    let large = fs::File::create(path("large.ron")).expect("writable");
+    large.set_len((16 << 20) + 1).expect("sparse");
+    assert!(said("large.ron").ends_with("the file of 16777217 bytes is refused; allowed are up to 16 MiB"));
+    fs::write(path("bytes.ron"), b"Scene(\n  name: \"\xff\")").expect("writable");
+    assert!(said("bytes.ron").ends_with("bytes.ron:2:10: the byte 0xff is refused; allowed is text in UTF-8"));
+    fs::write(path("my scene\u{1b}.ron"), "\u{feff}Scene()").expect("writable");
+    let opened = scene::open(&path("my scene\u{1b}.ron")).expect("a byte order mark is no fault");
+    assert_eq!((opened.key.as_str(), opened.scene.name.as_str()), ("my scene", "my scene"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_or_device_is_refused_at_once() {
+    let said = |path: &str| scene::open(path).expect_err("it is refused").to_string();
+    assert!(said("/dev/zero").ends_with("it is a device or pipe; allowed is a scene file"));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let pipe = folder.path().join("pipe.ron");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()));
+    assert!(said(&pipe.to_string_lossy()).ends_with("it is a device or pipe; allowed is a scene file"));
+}
+
+#[test]
+fn brackets_without_end_are_refused_not_followed() {
+    for open in ["[", "(", "{", "Scene(spheres: [", "Some(", "/*", "Wall(center: ("] {
+        let message = refusal(&open.repeat(100_000));
+        assert!(is_printable(&message), "{message}");
     }
 }
 

@@ -1,1 +1,273 @@
-//! The running application without a terminal: keys in, buffer out.
+//! The running application without a terminal: keys and news in, a buffer out. A test drives it as a user would.
+
+mod act;
+mod action;
+mod keys;
+mod knobs;
+mod look;
+mod prompt;
+mod scene_list;
+
+use std::{path::PathBuf, sync::Arc};
+
+pub use action::{Action, Direction};
+pub use keys::{Binding, Code, Key, action, help_rows, hints, table};
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+};
+use scene_list::SceneList;
+
+use crate::{
+    physics::{Scene, Settings},
+    scene::Opened,
+    snapshot::Stage,
+    view::{self, Colors, Look, Marker, Mode, Overlays, Pace, Popup, Screen, Views},
+    worker::{Activity, Command, Job, Notify, Report, Worker},
+};
+
+/// What the application starts with.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The first scene.
+    pub opened: Opened,
+    /// What to solve it with.
+    pub settings: Settings,
+    /// Wait at t = 0 instead of running.
+    pub paused: bool,
+    /// Dots or characters.
+    pub marker: Marker,
+    /// Depth of colour.
+    pub colors: Colors,
+}
+
+/// What reaches the application from outside.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Input {
+    /// A key was pressed.
+    Key(Key),
+    /// Text was pasted: taken where text is typed, and nowhere else.
+    Paste(String),
+    /// The worker has called `notify`.
+    News,
+}
+
+/// What an input asks of whoever holds the screen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[must_use]
+pub enum Effect {
+    /// Nothing.
+    Nothing,
+    /// Draw when it is time for the next picture.
+    Draw,
+    /// Draw at once: somebody is waiting for an answer.
+    DrawNow,
+    /// Draw everything again, whatever is on the screen.
+    Repaint,
+    /// Give the terminal back to the shell for a while.
+    Suspend,
+    /// End.
+    Quit,
+    /// End: the simulation's thread has panicked, which said this.
+    Fail(String),
+}
+
+/// What is open over the views.
+#[derive(Debug)]
+enum Open {
+    Nothing,
+    Help { scroll: usize },
+    Scenes(SceneList),
+    Prompt(String),
+}
+
+/// The scene under way, as it was opened.
+#[derive(Debug)]
+struct Current {
+    /// What [`crate::scene::open`] takes: built-in name or path.
+    name: String,
+    /// Its file, unless it is built in.
+    path: Option<PathBuf>,
+    scene: Arc<Scene>,
+}
+
+/// The application.
+pub struct App {
+    worker: Worker,
+    report: Arc<Report>,
+    current: Current,
+    /// The file the program was started with, in the list beside the built-in scenes.
+    given: Option<scene_list::Entry>,
+    settings: Settings,
+    speed: f64,
+    /// Whether the run was told to run; the worker's latest report may not know yet.
+    running: bool,
+    look: Look,
+    open: Open,
+    message: Option<String>,
+    /// Size of the last picture.
+    area: Rect,
+    help: Vec<(String, &'static str)>,
+    hints: Vec<(String, &'static str)>,
+}
+
+impl App {
+    /// Loads the scene and starts its worker, which calls `notify` when there is [`Input::News`].
+    ///
+    /// # Errors
+    /// If the system has no thread for the worker.
+    pub fn new(setup: Setup, notify: Notify) -> std::io::Result<App> {
+        let Opened { key, path, scene } = setup.opened;
+        let current = Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene) };
+        let stage = Arc::new(Stage::of(&key, &current.scene));
+        let job = Job { stage, scene: Arc::clone(&current.scene), settings: setup.settings };
+        let worker = Worker::start(job, 1.0, notify)?;
+        let report = worker.take();
+        let about = current.scene.about.clone();
+        let given = current.path.as_ref().map(|_| scene_list::Entry { name: current.name.clone(), about });
+        let mut app = App {
+            worker,
+            report,
+            current,
+            given,
+            settings: setup.settings,
+            speed: 1.0,
+            running: false,
+            look: first_look(setup.marker, setup.colors),
+            open: Open::Nothing,
+            message: None,
+            area: Rect::default(),
+            help: help_rows(),
+            hints: hints(),
+        };
+        if !setup.paused {
+            app.run(true);
+        }
+        Ok(app)
+    }
+
+    /// Obeys one input.
+    pub fn handle(&mut self, input: Input) -> Effect {
+        match input {
+            Input::Key(key) => self.key(key),
+            Input::Paste(text) => self.paste(&text),
+            Input::News => self.news(),
+        }
+    }
+
+    /// Draws the application as it stands over the whole buffer.
+    pub fn draw(&mut self, buffer: &mut Buffer) {
+        self.area = buffer.area;
+        self.with_screen(|screen| view::draw(screen, buffer.area, buffer));
+    }
+
+    /// Where the terminal's cursor belongs in the picture last drawn; `None`: nowhere.
+    pub fn cursor(&self) -> Option<Position> {
+        self.with_screen(|screen| view::cursor(screen, self.area))
+    }
+
+    /// One line of news in place of the key hints, until the next key.
+    pub fn say(&mut self, message: impl Into<String>) {
+        self.message = Some(message.into());
+    }
+
+    /// The latest report of the run.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// Whether the run has obeyed every key so far and waits for the next.
+    pub fn settled(&self) -> bool {
+        self.report.obeyed == self.worker.sent() && self.report.activity != Activity::Running
+    }
+
+    /// What the user chose to look at.
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Takes the worker's latest report.
+    fn news(&mut self) -> Effect {
+        let before = std::mem::replace(&mut self.report, self.worker.take());
+        if let Some(said) = &self.report.panic {
+            return Effect::Fail(said.clone());
+        }
+        if self.report.obeyed == self.worker.sent() {
+            self.running = self.report.activity == Activity::Running;
+        }
+        if self.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
+            self.message.clone_from(&self.report.snapshot.stall);
+        }
+        if self.report.obeyed == before.obeyed && self.report.activity == before.activity {
+            Effect::Draw
+        } else {
+            Effect::DrawNow
+        }
+    }
+
+    fn run(&mut self, on: bool) {
+        self.running = on;
+        self.worker.send(Command::Run(on));
+    }
+
+    /// The screen as it stands, lent to `show`.
+    fn with_screen<T>(&self, show: impl FnOnce(&Screen) -> T) -> T {
+        let (help, hints) = (pairs(&self.help), pairs(&self.hints));
+        let entries: Vec<(&str, &str)> = match &self.open {
+            Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
+            _ => Vec::new(),
+        };
+        show(&Screen {
+            snapshot: &self.report.snapshot,
+            pace: pace(&self.report),
+            ticks: &self.report.ticks,
+            look: &self.look,
+            popup: match &self.open {
+                Open::Nothing => Popup::None,
+                Open::Prompt(text) => Popup::Prompt { text },
+                Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
+                Open::Scenes(list) => Popup::Scenes {
+                    filter: list.filter(),
+                    filtering: list.filtering(),
+                    entries: &entries,
+                    cursor: list.cursor(),
+                },
+            },
+            message: self.message.as_deref(),
+            hints: &hints,
+        })
+    }
+}
+
+/// What [`crate::scene::open`] takes to open this scene again.
+fn name_of(key: &str, path: Option<&PathBuf>) -> String {
+    path.map_or_else(|| key.to_owned(), |path| path.to_string_lossy().into_owned())
+}
+
+/// Both views, the whole scene, nothing selected.
+fn first_look(marker: Marker, colors: Colors) -> Look {
+    Look {
+        views: Views::Both,
+        zoom: 1.0,
+        pan: glam::DVec3::ZERO,
+        follow: false,
+        selected: None,
+        overlays: Overlays::default(),
+        inspector: false,
+        marker,
+        colors,
+    }
+}
+
+fn pace(report: &Report) -> Pace {
+    let mode = match report.activity {
+        Activity::Running => Mode::Run,
+        Activity::Paused => Mode::Pause,
+        Activity::Stalled => Mode::Stalled,
+    };
+    Pace { mode, wanted: report.wanted, reached: report.reached }
+}
+
+fn pairs<'a>(rows: &'a [(String, &'static str)]) -> Vec<(&'a str, &'a str)> {
+    rows.iter().map(|(keys, does)| (keys.as_str(), *does)).collect()
+}

@@ -17,7 +17,26 @@ macro_rules! embedded {
 }
 
 /// All of `scenes/`, the paper's five first. A test refuses a file that is missing here.
-pub const ALL: &[Builtin] = embedded!["paper-0", "paper-1", "paper-2", "paper-3", "paper-4",];
+pub const ALL: &[Builtin] = embedded![
+    "paper-0",
+    "paper-1",
+    "paper-2",
+    "paper-3",
+    "paper-4",
+    "newtons-cradle",
+    "billiard",
+    "cannon",
+    "zeno",
+    "corner",
+    "zigzag",
+    "galton",
+    "stack",
+    "brownian",
+    "box-gas",
+    "bouncing-49",
+    "elastic-666",
+    "inelastic-666",
+];
 
 /// The built-in scene of that name.
 pub fn find(name: &str) -> Option<Builtin> {

@@ -166,6 +166,8 @@ fn sentence(code: &ron::Error, rest: &str) -> String {
     use ron::Error::*;
     let found = found(rest);
     match code {
+        Eof | ExpectedStringEnd | UnclosedBlockComment => "the file ends before what was begun is closed".to_owned(),
+        ExpectedStructLike | ExpectedNamedStructLike(_) if rest.is_empty() => "the file holds no scene".to_owned(),
         Message(message) => message.clone(),
         NoSuchStructField { expected, found, .. } => {
             format!("there is no field {}; allowed are {}", quote(found), listed(expected))
@@ -176,7 +178,9 @@ fn sentence(code: &ron::Error, rest: &str) -> String {
         MissingStructField { field, .. } => format!("the field {} is missing", quote(field)),
         DuplicateStructField { field, .. } => format!("the field {} is given twice", quote(field)),
         InvalidValueForType { expected, found } => format!("{} is refused; allowed is {expected}", clean(found, QUOTE)),
-        ExpectedDifferentLength { expected, found } => format!("{found} elements are refused; allowed is {expected}"),
+        ExpectedDifferentLength { expected, found } => {
+            format!("a tuple of size {found} is refused; allowed is {expected}")
+        }
         ExpectedDifferentStructName { expected, found } => {
             format!("{} is refused; allowed is {}", quote(found), quote(expected))
         }
@@ -186,7 +190,9 @@ fn sentence(code: &ron::Error, rest: &str) -> String {
         }
         ExpectedString => format!("{found} is refused; allowed is a text in double quotes"),
         ExpectedArray => format!("{found} is refused; allowed is a list in square brackets"),
-        ExpectedIdentifier => format!("{found} is refused; a name must stand here"),
+        ExpectedIdentifier => {
+            format!("{found} is refused; a name without quotes must stand here, like `Sphere`, `Wall` or `paper`")
+        }
         ExpectedStructLike | ExpectedNamedStructLike(_) => {
             format!("{found} is refused; an opening `(` must stand here")
         }
@@ -194,7 +200,7 @@ fn sentence(code: &ron::Error, rest: &str) -> String {
         ExpectedArrayEnd => format!("{found} is refused; a closing `]` must stand here"),
         ExpectedComma => format!("{found} is refused; a comma or the closing bracket must stand here"),
         ExpectedMapColon => format!("{found} is refused; a colon must stand here"),
-        Eof | ExpectedStringEnd | UnclosedBlockComment => "the file ends before what was begun is closed".to_owned(),
+        NoSuchExtension(name) => format!("there is no RON extension {}", quote(name)),
         TrailingCharacters => format!("{found} is refused; nothing may follow the scene's closing `)`"),
         ExceededRecursionLimit => "brackets are nested too deeply; a scene needs five levels".to_owned(),
         other => format!("{found} is refused: {other}"),

@@ -8,6 +8,7 @@
 use glam::DVec3;
 
 use super::Sphere;
+use super::error::{show, show_rounded};
 use super::generate::SplitMix64;
 use crate::geometry::{Bounds, Parallelogram};
 
@@ -44,23 +45,26 @@ pub(super) fn strewn(
 ) -> Result<Vec<DVec3>, String> {
     let inner = bounds.grown(-r);
     let size = bounds.size();
+    if inner.size().min_element() < 0.0 {
+        let (radius, edge) = (show(r), show_rounded(size.min_element()));
+        return Err(format!(
+            "a box with an edge of {edge} m is refused; allowed is at least twice the radius of {radius} m"
+        ));
+    }
     let fraction = count as f64 * SPHERE_IN_CUBE * (2.0 * r / size.x) * (2.0 * r / size.y) * (2.0 * r / size.z);
-    if inner.size().min_element() < 0.0 || fraction > DENSEST {
-        return Err(too_many(count, 0, fraction));
+    let too_many = |placed: usize| {
+        let fraction = show_rounded(fraction);
+        let room = "allowed are fewer or smaller spheres or a larger box (up to about 0.3 of it can be filled)";
+        format!("{count} spheres, {fraction} of the box, do not fit: {placed} found a place; {room}")
+    };
+    if fraction > DENSEST {
+        return Err(too_many(0));
     }
     let field = Field::new(bounds, count, r, obstacles);
-    if let Some(centers) = inserted(&field, inner, count, draw) {
-        return Ok(centers);
+    match inserted(&field, inner, count, draw) {
+        Some(centers) => Ok(centers),
+        None => latticed(&field, bounds, count, draw).map_err(too_many),
     }
-    latticed(&field, bounds, count, draw).map_err(|placed| too_many(count, placed, fraction))
-}
-
-fn too_many(count: usize, placed: usize, fraction: f64) -> String {
-    let share = super::error::show_rounded(fraction);
-    format!(
-        "{count} spheres do not fit, {placed} found a place: they would fill {share} of the box, walls aside; \
-         allowed are fewer, smaller spheres, or a larger box (up to about 0.3 fits)"
-    )
 }
 
 /// Random insertion; none if the draws run out.

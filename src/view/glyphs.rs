@@ -13,8 +13,6 @@ pub(super) struct Glyphs {
     pub(super) times: &'static str,
     /// Between two bodies.
     pub(super) with: &'static str,
-    /// Between parts of a heading.
-    pub(super) dot: &'static str,
     /// Labels of the side view's axes.
     pub(super) side_axes: &'static str,
     /// Labels of the top-down view's axes.
@@ -31,8 +29,6 @@ pub(super) struct Glyphs {
     pub(super) more: [&'static str; 2],
     /// Entry under the cursor.
     pub(super) pointer: &'static str,
-    /// Superscript-free names of velocity before and after.
-    pub(super) per_cent: &'static str,
 }
 
 const UNICODE: Glyphs = Glyphs {
@@ -40,7 +36,6 @@ const UNICODE: Glyphs = Glyphs {
     arrow: "→",
     times: "×",
     with: "–",
-    dot: "·",
     side_axes: "x→ y↑",
     top_axes: "x→ z↓",
     bar: ["━", "╸"],
@@ -49,7 +44,6 @@ const UNICODE: Glyphs = Glyphs {
     contact: ['×', '•', '·'],
     more: ["↑", "↓"],
     pointer: "▸",
-    per_cent: "%",
 };
 
 const ASCII: Glyphs = Glyphs {
@@ -57,7 +51,6 @@ const ASCII: Glyphs = Glyphs {
     arrow: "->",
     times: "x",
     with: "-",
-    dot: "-",
     side_axes: "x right, y up",
     top_axes: "x right, z down",
     bar: ["=", ""],
@@ -66,7 +59,6 @@ const ASCII: Glyphs = Glyphs {
     contact: ['x', '=', '.'],
     more: ["^", "v"],
     pointer: ">",
-    per_cent: "%",
 };
 
 /// The signs that go with a marker.

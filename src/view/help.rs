@@ -18,17 +18,17 @@ type Row = (String, String);
 
 /// Draws the table in the body, scrolled down by so many rows.
 pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &mut Sheet) {
-    let (head, table) = split_top(body, u16::from(body.height > 2));
+    let (head, table) = split(body);
     if table.is_empty() {
         return;
     }
-    let keys = entries.iter().map(|(keys, _)| sheet::width(keys)).max().unwrap_or(0).min(KEYS) as u16;
+    let keys = keys_width(entries);
     let columns = columns(entries, keys, table);
-    let width = table.width / columns.len().max(1) as u16;
-    let lines = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let width = table.width / columns.len() as u16;
     let height = usize::from(table.height);
-    let scroll = scroll.min(lines.saturating_sub(height));
-    draw_head(scroll, lines.saturating_sub(scroll + height), head, sheet);
+    let limit = hidden(&columns, table);
+    let scroll = scroll.min(limit);
+    draw_head(scroll, limit - scroll, head, sheet);
     for (i, column) in columns.iter().enumerate() {
         let mut rest = split_left(split_left(table, i as u16 * width).1, width).0;
         for row in column.iter().skip(scroll).take(height) {
@@ -37,6 +37,26 @@ pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &
             rest = below;
         }
     }
+}
+
+/// How many rows the table in the body can be scrolled down.
+pub(super) fn scroll_limit(entries: &[(&str, &str)], body: Rect) -> usize {
+    let (_, table) = split(body);
+    if table.is_empty() { 0 } else { hidden(&columns(entries, keys_width(entries), table), table) }
+}
+
+/// (heading, table).
+fn split(body: Rect) -> (Rect, Rect) {
+    split_top(body, u16::from(body.height > 2))
+}
+
+fn keys_width(entries: &[(&str, &str)]) -> u16 {
+    entries.iter().map(|(keys, _)| sheet::width(keys)).max().unwrap_or(0).min(KEYS) as u16
+}
+
+/// Rows that do not fit.
+fn hidden(columns: &[Vec<Row>], table: Rect) -> usize {
+    columns.iter().map(Vec::len).max().unwrap_or(0).saturating_sub(table.height.into())
 }
 
 /// As few columns as show everything at once, and never more than fit side by side; entries stay whole.

@@ -164,7 +164,7 @@ fn draw_legend(column: &mut Column) {
     let (faint, arrow) = (column.sheet().palette.faint(), column.sheet().glyphs.arrow);
     let bodies = column.width().saturating_sub(CLASS + DEGREE);
     column.row(&format!("{:<bodies$}{:<CLASS$}{:>DEGREE$}", "bodies", "class", "degree"), faint);
-    column.row(&format!("{:>7}{arrow}{:<11}{:>9}", "before", "after m/s", "impulse Ns"), faint);
+    column.row(&format!("{:>7}{arrow}{:>6} m/s{:>10}", "before", "after", "impulse Ns"), faint);
 }
 
 /// Columns for a contact's class.
@@ -190,6 +190,6 @@ fn draw_contact(contact: &Contact, column: &mut Column) {
     column.pieces(&[(&bodies, plain), (&pad, plain), (&class, style), (&degree, faint)]);
     let before = numbers::decimal(contact.approach_speed, 7, 3);
     let after = numbers::decimal(contact.separation_speed, 6, 3);
-    let impulse = numbers::decimal(contact.impulse, 13, 4);
+    let impulse = numbers::decimal(contact.impulse, 14, 4);
     column.row(&format!("{before}{}{after}{impulse}", glyphs.arrow), plain);
 }

@@ -252,24 +252,25 @@ fn draw_popup(screen: &Screen, body: Rect, sheet: &mut Sheet) -> bool {
 
 /// Where the terminal's own cursor belongs while text is typed (prompt, filter); `None`: hidden.
 pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
+    let (body, last) = popup_places(screen.look, area)?;
     match screen.popup {
-        Popup::Prompt { text } => {
-            let last = match Plan::new(area, screen.look) {
-                Plan::TooSmall => return None,
-                Plan::Numbers { area } => layout::split_bottom(area, 1).1,
-                Plan::Full(full) => full.last,
-            };
-            prompt::cursor(text, last)
-        }
-        Popup::Scenes { filter, filtering: true, .. } => {
-            let body = match Plan::new(area, screen.look) {
-                Plan::TooSmall => return None,
-                Plan::Numbers { area } => area,
-                Plan::Full(full) => full.body,
-            };
-            scenes::cursor(filter, body)
-        }
+        Popup::Prompt { text } => prompt::cursor(text, last),
+        Popup::Scenes { filter, filtering: true, .. } => scenes::cursor(filter, body),
         _ => None,
+    }
+}
+
+/// How far the key table can be scrolled down at this size: rows of it that do not fit.
+pub fn help_scroll_limit(rows: &[(&str, &str)], look: &Look, area: Rect) -> usize {
+    popup_places(look, area).map_or(0, |(body, _)| help::scroll_limit(rows, body))
+}
+
+/// (where lists go, where the prompt goes), if there is room for any.
+fn popup_places(look: &Look, area: Rect) -> Option<(Rect, Rect)> {
+    match Plan::new(area, look) {
+        Plan::TooSmall => None,
+        Plan::Numbers { area } => Some((area, layout::split_bottom(area, 1).1)),
+        Plan::Full(full) => Some((full.body, full.last)),
     }
 }
 

@@ -109,3 +109,89 @@ fn range(from: f64, to: f64, size: i32) -> std::ops::Range<i32> {
     let end = ((to.floor() + 1.0).min(f64::from(size))).max(0.0) as i32;
     first..end
 }
+
+#[cfg(test)]
+mod tests {
+    use ratatui::layout::Rect;
+
+    use super::*;
+
+    fn drawn(draw: impl Fn(&mut Canvas)) -> Vec<(i32, i32)> {
+        let mut canvas = Canvas::new(Rect::new(0, 0, 40, 20));
+        draw(&mut canvas);
+        let all = (0..80).flat_map(|y| (0..80).map(move |x| (x, y)));
+        all.filter(|(x, y)| canvas.has(*x, *y)).collect()
+    }
+
+    fn distance(a: Dots, b: (i32, i32)) -> f64 {
+        let (dx, dy) = (f64::from(b.0) - a.0, f64::from(b.1) - a.1);
+        (dx * dx + dy * dy).sqrt()
+    }
+
+    /// Radii and centres that fall everywhere between dots.
+    fn circles() -> impl Iterator<Item = (Dots, f64)> {
+        (0..400).map(|i| {
+            let i = f64::from(i);
+            ((39.0 + (i * 0.37) % 1.0, 41.0 + (i * 0.73) % 1.0), 1.5 + i * 0.09)
+        })
+    }
+
+    #[test]
+    fn every_dot_of_a_circle_is_within_half_a_dot_of_the_true_circle() {
+        for (c, r) in circles() {
+            for dot in drawn(|canvas| circle(canvas, c, r, Ink::default())) {
+                // Half a dot, and rounding of the square root.
+                assert!((distance(c, dot) - r).abs() <= 0.5 + 1e-12, "radius {r} about {c:?}: {dot:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_circle_has_no_holes() {
+        for (c, r) in circles() {
+            let dots = drawn(|canvas| circle(canvas, c, r, Ink::default()));
+            for dot in &dots {
+                let beside = |other: &&(i32, i32)| (other.0 - dot.0).abs().max((other.1 - dot.1).abs()) == 1;
+                assert!(dots.iter().filter(beside).count() >= 2, "radius {r} about {c:?}: {dot:?} is an end");
+            }
+        }
+    }
+
+    #[test]
+    fn a_disc_holds_the_dots_whose_centres_are_in_it() {
+        for (c, r) in circles() {
+            let dots = drawn(|canvas| disc(canvas, c, r, 1, Ink::default()));
+            let inside = (0..80).flat_map(|y| (0..80).map(move |x| (x, y))).filter(|dot| distance(c, *dot) <= r);
+            assert_eq!(dots.len(), inside.count(), "radius {r} about {c:?}");
+        }
+        assert_eq!(drawn(|canvas| disc(canvas, (7.4, 7.4), 1e-9, 1, Ink::default())), [(7, 7)]);
+    }
+
+    #[test]
+    fn a_line_of_any_length_is_drawn_as_far_as_it_is_on_the_canvas() {
+        let diagonal: Vec<(i32, i32)> = (0..80).map(|i| (i, i)).collect();
+        for far in [1e2, 1e5, 1e9] {
+            let ends = ((40.0 - far, 40.0 - far), (40.0 + far, 40.0 + far));
+            assert_eq!(drawn(|canvas| line(canvas, ends.0, ends.1, Ink::default())), diagonal, "to {far}");
+        }
+        let vertical: Vec<(i32, i32)> = (0..80).map(|y| (12, y)).collect();
+        assert_eq!(drawn(|canvas| line(canvas, (12.0, -1e9), (12.0, 1e9), Ink::default())), vertical);
+    }
+
+    #[test]
+    fn a_line_that_misses_the_canvas_or_is_not_finite_draws_nothing() {
+        let far = [(-5.0, 3.0), (-1.0, 90.0), (85.0, 85.0), (1e300, 5.0)];
+        for (a, b) in
+            [(far[0], far[1]), (far[2], far[3]), ((f64::NAN, 0.0), (1.0, 1.0)), ((0.0, f64::INFINITY), (3.0, 3.0))]
+        {
+            assert_eq!(drawn(|canvas| line(canvas, a, b, Ink::default())), [], "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn the_rim_of_an_enormous_circle_is_a_straight_line_of_its_own_slope() {
+        let r = 1e9;
+        let dots = drawn(|canvas| circle(canvas, (40.0 - r, 40.0), r, Ink::default()));
+        assert_eq!(dots, (0..80).map(|y| (40, y)).collect::<Vec<_>>());
+    }
+}

@@ -72,7 +72,7 @@ impl<'a> Sheet<'a> {
         if self.marker != Marker::Ascii || text.is_ascii() {
             return Cow::Borrowed(text);
         }
-        Cow::Owned(text.chars().map(|c| if c.is_ascii() { c } else { '?' }).collect())
+        Cow::Owned(text.chars().map(ascii).collect())
     }
 
     /// Text cut to so many columns, an ellipsis at the end if it was cut.
@@ -84,6 +84,22 @@ impl<'a> Sheet<'a> {
         let ellipsis = if columns > 3 { self.glyphs.ellipsis } else { "" };
         let (start, _) = split(&text, usize::from(columns) - width(ellipsis));
         Cow::Owned(format!("{start}{ellipsis}"))
+    }
+}
+
+/// The ASCII character closest in meaning, for the signs that our own texts use.
+fn ascii(character: char) -> char {
+    match character {
+        c if c.is_ascii() => c,
+        '→' => '>',
+        '←' => '<',
+        '↑' | '⇧' => '^',
+        '↓' => 'v',
+        '×' => 'x',
+        '÷' => '/',
+        '–' | '−' => '-',
+        '…' | '·' => '.',
+        _ => '?',
     }
 }
 

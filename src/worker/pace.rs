@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn simulated_time_follows_the_wall_at_the_wanted_speed() {
         let mut pace = Pace::new(0.5, 100.0, 7.0);
-        assert_eq!(pace.target(100.1, 7.0), 7.05);
+        assert_eq!(pace.target(100.0625, 7.0), 7.03125);
         assert_eq!(pace.wait(100.0, 8.0), 2.0);
     }
 

@@ -1,4 +1,5 @@
 //! Snapshots built by hand: what a picture needs, without a physics.
+#![allow(dead_code, reason = "the bench uses a part of it")]
 
 use std::sync::Arc;
 
@@ -10,14 +11,15 @@ use carom::{
 use glam::{DVec3, dvec3};
 
 /// What one frame is drawn from, owned.
-pub struct Scene {
-    pub snapshot: Snapshot,
-    pub ticks: Ticks,
-    pub look: Look,
-    pub pace: Pace,
+#[derive(Clone)]
+pub(crate) struct Scene {
+    pub(crate) snapshot: Snapshot,
+    pub(crate) ticks: Ticks,
+    pub(crate) look: Look,
+    pub(crate) pace: Pace,
 }
 
-pub const HINTS: &[(&str, &str)] = &[
+pub(crate) const HINTS: &[(&str, &str)] = &[
     ("space", "run"),
     (".", "step"),
     (",", "back"),
@@ -31,7 +33,7 @@ pub const HINTS: &[(&str, &str)] = &[
 ];
 
 impl Scene {
-    pub fn screen(&self) -> Screen<'_> {
+    pub(crate) fn screen(&self) -> Screen<'_> {
         Screen {
             snapshot: &self.snapshot,
             pace: self.pace,
@@ -45,7 +47,7 @@ impl Scene {
 }
 
 /// The paper's room, 10 × 10 × 20 m, with its green and red walls.
-pub fn room() -> Vec<([DVec3; 4], Option<[f64; 3]>)> {
+pub(crate) fn room() -> Vec<([DVec3; 4], Option<[f64; 3]>)> {
     let (grey, green, red) = (Some([0.725, 0.71, 0.68]), Some([0.14, 0.45, 0.091]), Some([0.63, 0.065, 0.05]));
     vec![
         wall(dvec3(0.0, 0.0, 7.5), dvec3(10.0, 0.0, 0.0), dvec3(0.0, 0.0, -20.0), grey),
@@ -57,12 +59,12 @@ pub fn room() -> Vec<([DVec3; 4], Option<[f64; 3]>)> {
     ]
 }
 
-pub fn wall(center: DVec3, s1: DVec3, s2: DVec3, color: Option<[f64; 3]>) -> ([DVec3; 4], Option<[f64; 3]>) {
+pub(crate) fn wall(center: DVec3, s1: DVec3, s2: DVec3, color: Option<[f64; 3]>) -> ([DVec3; 4], Option<[f64; 3]>) {
     (Parallelogram { center, s1, s2 }.corners(), color)
 }
 
 /// A paused scene at rest in the room, its spheres given as (centre, velocity), all of 1 kg and 0.5 m.
-pub fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
+pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
     let stage = Stage {
         key: key.into(),
         name: format!("The scene {key}"),
@@ -97,11 +99,11 @@ pub fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
 }
 
 /// Changes what is constant.
-pub fn edit(scene: &mut Scene, change: impl FnOnce(&mut Stage)) {
+pub(crate) fn edit(scene: &mut Scene, change: impl FnOnce(&mut Stage)) {
     change(Arc::make_mut(&mut scene.snapshot.stage));
 }
 
-pub fn contact(kind: Kind, a: usize, b: usize, class: Class) -> Contact {
+pub(crate) fn contact(kind: Kind, a: usize, b: usize, class: Class) -> Contact {
     Contact {
         time: 1.0,
         kind,
@@ -118,12 +120,12 @@ pub fn contact(kind: Kind, a: usize, b: usize, class: Class) -> Contact {
 }
 
 /// One sphere in the air over the floor.
-pub fn drop() -> Scene {
+pub(crate) fn drop() -> Scene {
     scene("paper-0", &[(dvec3(-4.5, 9.5, 0.0), DVec3::ZERO)])
 }
 
 /// Two spheres over a V of two walls, one of them just hitting its wall; running.
-pub fn wedge() -> Scene {
+pub(crate) fn wedge() -> Scene {
     let spheres = [(dvec3(-2.1, 3.0, -0.5), dvec3(1.5, -7.4, 0.0)), (dvec3(2.4, 6.6, -0.5), dvec3(-5.0, -2.0, 0.0))];
     let mut scene = scene("paper-4", &spheres);
     edit(&mut scene, |stage| {
@@ -166,7 +168,7 @@ pub fn wedge() -> Scene {
 }
 
 /// Three touching spheres on the floor: two at rest, one hitting another.
-pub fn pile() -> Scene {
+pub(crate) fn pile() -> Scene {
     let spheres = [
         (dvec3(-0.5, 0.5, 0.0), DVec3::ZERO),
         (dvec3(0.5, 0.5, 0.0), DVec3::ZERO),
@@ -197,7 +199,7 @@ pub fn pile() -> Scene {
 }
 
 /// A run that cannot go on, and says why.
-pub fn stalled() -> Scene {
+pub(crate) fn stalled() -> Scene {
     let mut scene = wedge();
     scene.pace.mode = Mode::Stalled;
     scene.snapshot.t = 7.4983;
@@ -211,7 +213,7 @@ pub fn stalled() -> Scene {
 }
 
 /// Many spheres of three sizes on a jittered grid: positions by SplitMix64, the same everywhere.
-pub fn gas(count: usize) -> Scene {
+pub(crate) fn gas(count: usize) -> Scene {
     let mut state = 7_u64;
     let mut uniform = move || {
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);

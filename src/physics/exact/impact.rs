@@ -8,6 +8,7 @@ use super::Exact;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
+use crate::physics::parts::part_ahead;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
@@ -29,6 +30,9 @@ const HOP: f64 = 4.0 * f64::EPSILON;
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 const SMALL_HOP: f64 = 1e-12;
+
+/// Normal velocities below this share of the speed may be those of a sphere that slides.
+const SLOW: f64 = 1e-6;
 
 /// Coarsest time scale at which rounding of the clock is ignored, s.
 const CLOCK: f64 = 1e-3;
@@ -151,8 +155,11 @@ impl Exact {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], model.radii[a]);
                 let at = touch(face, path.x, r);
-                let a_n = at.normal.dot(path.a) + curvature(face, at.part, at.normal, path.v, r);
                 let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
+                // only what may rest asks on which side of a border it will be
+                let slow = v_n.abs() <= SLOW * path.v.length();
+                let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
+                let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
                 Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
             }
             Kind::Pair => {

@@ -6,7 +6,7 @@ use super::Exact;
 use super::curved::{Body, Closed, Ended, On, advance, step};
 use super::flight::Flight;
 use super::impact::{Meeting, ZENO};
-use super::parts::{part_ahead, part_end};
+use crate::physics::parts::{part_ahead, part_end};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::Part;

@@ -1,0 +1,334 @@
+//! What each input does to the application.
+
+use std::sync::Arc;
+
+use super::{
+    App, Current, Effect, Open,
+    action::{Action, Direction},
+    keys::{self, Code, Key},
+    knobs, look, name_of,
+    prompt::{self, Order},
+    scene_list::{self, Outcome, SceneList},
+};
+use crate::{
+    physics::Settings,
+    scene::{self, Opened},
+    snapshot::Stage,
+    view,
+    worker::{Activity, Command, Job},
+};
+
+/// Longest text the prompt takes; more than any order needs.
+const PROMPT: usize = 200;
+
+impl App {
+    pub(super) fn key(&mut self, key: Key) -> Effect {
+        self.message = None;
+        // These work whatever is open and whoever is typing.
+        if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
+            keys::action(key).filter(|_| key.ctrl)
+        {
+            return self.act(action);
+        }
+        match &mut self.open {
+            Open::Prompt(_) => self.type_into_prompt(key),
+            Open::Scenes(list) => match list.handle(key) {
+                Outcome::Stay => {}
+                Outcome::Close => self.open = Open::Nothing,
+                Outcome::Open(name) => {
+                    self.open = Open::Nothing;
+                    self.open_scene(&name);
+                }
+                Outcome::NotMine => return self.act_on(key),
+            },
+            Open::Help { scroll } => match scrolled(key, *scroll, self.help.len(), self.area.height.into()) {
+                Some(next) => *scroll = next,
+                None => return self.act_on(key),
+            },
+            Open::Nothing => return self.act_on(key),
+        }
+        Effect::DrawNow
+    }
+
+    /// Takes pasted text where text is typed.
+    pub(super) fn paste(&mut self, text: &str) -> Effect {
+        let typing = match &self.open {
+            Open::Prompt(_) => true,
+            Open::Scenes(list) => list.filtering(),
+            _ => false,
+        };
+        if !typing {
+            return Effect::Nothing;
+        }
+        for c in text.chars().filter(|c| !c.is_control()).take(PROMPT) {
+            let _ = self.key(Key::char(c));
+        }
+        Effect::DrawNow
+    }
+
+    fn act_on(&mut self, key: Key) -> Effect {
+        match keys::action(key) {
+            Some(action) => self.act(action),
+            None => Effect::DrawNow, // the message has vanished
+        }
+    }
+
+    fn act(&mut self, action: Action) -> Effect {
+        match action {
+            Action::Quit => return Effect::Quit,
+            Action::Suspend => return Effect::Suspend,
+            Action::Repaint => return Effect::Repaint,
+            Action::TogglePause => self.toggle_pause(),
+            Action::Step => self.advance(Command::Step),
+            Action::NextImpact => self.advance(Command::NextImpact),
+            Action::Restart => self.restart(),
+            Action::Reload => self.reload(),
+            Action::PreviousScene => self.neighbor_scene(-1),
+            Action::NextScene => self.neighbor_scene(1),
+            Action::LowerTolerance => self.solve_with(knobs::tolerance(self.settings, 0.1)),
+            Action::RaiseTolerance => self.solve_with(knobs::tolerance(self.settings, 10.0)),
+            Action::HalveDt => self.solve_with(knobs::dt(self.settings, 0.5)),
+            Action::DoubleDt => self.solve_with(knobs::dt(self.settings, 2.0)),
+            Action::NextMethod => self.solve_with(Ok(knobs::next_method(self.settings))),
+            Action::Faster => self.go_at(knobs::speed(self.speed, 2.0)),
+            Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
+            Action::RealTime => self.go_at(Ok(1.0)),
+            Action::Prompt => self.open = Open::Prompt(String::new()),
+            Action::Help => self.toggle_help(),
+            Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+            Action::Close => self.open = Open::Nothing,
+            _ => self.change_look(action),
+        }
+        Effect::DrawNow
+    }
+
+    /// The actions that only move the camera or change what is drawn.
+    fn change_look(&mut self, action: Action) {
+        match action {
+            Action::NextViews => look::next_views(&mut self.look),
+            Action::Pan(direction) => self.pan(direction),
+            Action::ZoomIn if !look::zoom(&mut self.look, look::ZOOM) => self.say("This is the closest view."),
+            Action::ZoomOut if !look::zoom(&mut self.look, 1.0 / look::ZOOM) => self.say("This is the widest view."),
+            Action::WholeScene => look::whole_scene(&mut self.look),
+            Action::Follow => self.follow(),
+            Action::SelectNext => self.select(true),
+            Action::SelectPrevious => self.select(false),
+            Action::Inspector => self.toggle_inspector(),
+            Action::NextOverlays => {
+                let said = look::next_overlays(&mut self.look);
+                self.say(said);
+            }
+            _ => {} // zooming has happened in its guard; all others are done in `act`
+        }
+    }
+
+    fn toggle_pause(&mut self) {
+        if !self.say_if_stalled() {
+            self.run(!self.running);
+        }
+    }
+
+    /// Steps or runs on from a pause.
+    fn advance(&mut self, command: Command) {
+        if !self.say_if_stalled() {
+            self.running = !matches!(command, Command::Step);
+            self.worker.send(command);
+        }
+    }
+
+    /// A stalled run can't go on: says why, and whether that was so.
+    fn say_if_stalled(&mut self) -> bool {
+        let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
+        if stalled {
+            self.message.clone_from(&self.report.snapshot.stall);
+        }
+        stalled
+    }
+
+    fn restart(&mut self) {
+        let stalled = self.report.activity == Activity::Stalled;
+        self.worker.send(Command::Restart);
+        if stalled {
+            self.run(false);
+        }
+    }
+
+    /// Reads the scene's file again; if it no longer loads, the old run goes on.
+    fn reload(&mut self) {
+        if self.current.path.is_none() {
+            return self.say(format!("{} is built in: there is no file to reload.", self.current.name));
+        }
+        match scene::open(&self.current.name) {
+            Ok(opened) => {
+                let settings = knobs::reloaded(self.settings, self.current.scene.solver, opened.scene.solver);
+                self.load(opened, settings);
+                self.say(format!("Reloaded {}.", self.current.name));
+            }
+            Err(error) => self.say(one_line(&error.to_string())),
+        }
+    }
+
+    /// Opens another scene; if it does not load, the old run goes on.
+    fn open_scene(&mut self, name: &str) {
+        match scene::open(name) {
+            Ok(opened) => {
+                let settings = opened.scene.solver;
+                self.load(opened, settings);
+            }
+            Err(error) => self.say(one_line(&error.to_string())),
+        }
+    }
+
+    /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
+    fn load(&mut self, opened: Opened, settings: Settings) {
+        let Opened { key, path, scene } = opened;
+        let running = self.running;
+        self.current = Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene) };
+        self.settings = settings;
+        let stage = Arc::new(Stage::of(&key, &self.current.scene));
+        self.worker.send(Command::Load(Job { stage, scene: Arc::clone(&self.current.scene), settings }));
+        self.run(running);
+        look::whole_scene(&mut self.look);
+        self.look.selected = None;
+    }
+
+    fn neighbor_scene(&mut self, offset: isize) {
+        let given = self.given.iter().map(|entry| entry.name.clone());
+        let names: Vec<String> = given.chain(scene_list::built_in_names().map(str::to_owned)).collect();
+        let at = names.iter().position(|name| *name == self.current.name);
+        let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
+        self.open_scene(&names[next]);
+    }
+
+    /// The scenes there are: the file the program was started with, then the built-in ones.
+    fn entries(&self) -> Vec<scene_list::Entry> {
+        self.given.iter().cloned().chain(scene_list::built_in()).collect()
+    }
+
+    fn solve_with(&mut self, settings: Result<Settings, String>) {
+        match settings {
+            Ok(settings) => {
+                self.settings = settings;
+                self.worker.send(Command::Settings(settings));
+            }
+            Err(said) => self.say(said),
+        }
+    }
+
+    fn go_at(&mut self, speed: Result<f64, String>) {
+        match speed {
+            Ok(speed) => {
+                self.speed = speed;
+                self.worker.send(Command::Speed(speed));
+            }
+            Err(said) => self.say(said),
+        }
+    }
+
+    fn toggle_help(&mut self) {
+        self.open = match self.open {
+            Open::Help { .. } => Open::Nothing,
+            _ => Open::Help { scroll: 0 },
+        };
+    }
+
+    fn pan(&mut self, direction: Direction) {
+        self.let_go();
+        let span = view::visible_span(&self.look, &self.report.snapshot.stage, self.area);
+        look::pan(&mut self.look, direction, span);
+    }
+
+    fn let_go(&mut self) {
+        let x = self.look.selected.and_then(|i| self.report.snapshot.x.get(i));
+        look::let_go(&mut self.look, &self.report.snapshot.stage.view, x.copied());
+    }
+
+    fn follow(&mut self) {
+        if self.look.follow {
+            self.let_go();
+            return self.say("The view stays where it is.");
+        }
+        if self.look.selected.is_none() {
+            self.select(true);
+        }
+        if let Some(i) = self.look.selected {
+            self.look.follow = true;
+            self.look.pan = glam::DVec3::ZERO;
+            self.say(format!("The view follows sphere {i}."));
+        }
+    }
+
+    fn select(&mut self, forward: bool) {
+        let x = self.look.selected.and_then(|i| self.report.snapshot.x.get(i)).copied();
+        let followed = self.look.follow;
+        look::select(&mut self.look, self.current.scene.spheres.len(), forward);
+        if self.current.scene.spheres.is_empty() {
+            self.say("This scene has no spheres.");
+        } else if followed && self.look.selected.is_none() {
+            self.look.follow = true;
+            look::let_go(&mut self.look, &self.report.snapshot.stage.view, x);
+        }
+    }
+
+    fn toggle_inspector(&mut self) {
+        self.look.inspector = !self.look.inspector;
+        self.say(if self.look.inspector { "Inspector on." } else { "Inspector off, where the screen has no room." });
+    }
+
+    fn type_into_prompt(&mut self, key: Key) {
+        let Open::Prompt(text) = &mut self.open else { return };
+        match (key.code, key.typed()) {
+            (Code::Enter, _) => {
+                let text = std::mem::take(text);
+                self.open = Open::Nothing;
+                self.order(&text);
+            }
+            (Code::Escape, _) => self.open = Open::Nothing,
+            (Code::Backspace, _) if text.pop().is_none() => self.open = Open::Nothing,
+            (Code::Char('u'), None) => text.clear(),
+            (_, Some(c)) if text.len() < PROMPT => text.push(c),
+            _ => {}
+        }
+    }
+
+    fn order(&mut self, text: &str) {
+        match prompt::read(text) {
+            Ok(None) => {}
+            Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
+            Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
+            Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
+            Ok(Some(Order::Goto(t))) => {
+                self.running = true;
+                self.worker.send(Command::Goto(t));
+            }
+            #[cfg(debug_assertions)]
+            Ok(Some(Order::Panic { simulation: true })) => self.worker.send(Command::Panic),
+            #[cfg(debug_assertions)]
+            Ok(Some(Order::Panic { simulation: false })) => panic!("asked to panic"),
+            Err(said) => self.say(said),
+        }
+    }
+}
+
+/// Where a key scrolls a text of so many rows to, on a screen of so many, if it is a scrolling key.
+fn scrolled(key: Key, scroll: usize, rows: usize, screen: usize) -> Option<usize> {
+    // Status, heading, timeline and hints leave the rest of the screen to the text.
+    let page = screen.saturating_sub(4).max(1);
+    let to = match key.code {
+        Code::Up => scroll.saturating_sub(1),
+        Code::Down => scroll + 1,
+        Code::PageUp => scroll.saturating_sub(page),
+        Code::PageDown => scroll + page,
+        Code::Home => 0,
+        Code::End => rows,
+        Code::Char('k') if !key.ctrl && !key.alt => scroll.saturating_sub(1),
+        Code::Char('j') if !key.ctrl && !key.alt => scroll + 1,
+        _ => return None,
+    };
+    Some(to.min(rows.saturating_sub(page)))
+}
+
+/// An error's lines joined, for the message line.
+fn one_line(text: &str) -> String {
+    text.lines().map(str::trim).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,83 @@
+//! What a key can do.
+
+/// What a key can do. How it is called, and by which keys, is the business of [`super::keys`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Action {
+    /// Pause, or run.
+    TogglePause,
+    /// One frame further.
+    Step,
+    /// On to the next frame with an impact.
+    NextImpact,
+    /// Back to t = 0.
+    Restart,
+    /// Read the scene's file again.
+    Reload,
+    /// The scene before this one in the list.
+    PreviousScene,
+    /// The scene after this one in the list.
+    NextScene,
+    /// Open the list of scenes, or close it.
+    Scenes,
+    /// Tolerance ÷ 10.
+    LowerTolerance,
+    /// Tolerance × 10.
+    RaiseTolerance,
+    /// dt ÷ 2.
+    HalveDt,
+    /// dt × 2.
+    DoubleDt,
+    /// The next method from here on.
+    NextMethod,
+    /// Speed × 2.
+    Faster,
+    /// Speed ÷ 2.
+    Slower,
+    /// One simulated second per second.
+    RealTime,
+    /// Both views, side, top.
+    NextViews,
+    /// Move the view.
+    Pan(Direction),
+    /// Zoom in.
+    ZoomIn,
+    /// Zoom out.
+    ZoomOut,
+    /// The whole scene, as at first.
+    WholeScene,
+    /// Keep the selected sphere in the centre, or stop.
+    Follow,
+    /// Select the next sphere.
+    SelectNext,
+    /// Select the sphere before.
+    SelectPrevious,
+    /// Show the inspector, or hide it.
+    Inspector,
+    /// The next set of overlays.
+    NextOverlays,
+    /// Type exact values.
+    Prompt,
+    /// Show the keys, or hide them.
+    Help,
+    /// Draw everything again.
+    Repaint,
+    /// Give the terminal back to the shell for a while.
+    Suspend,
+    /// End the program.
+    Quit,
+    /// Close what is open.
+    Close,
+}
+
+/// Where the view moves to on the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// Left: −x.
+    Left,
+    /// Down the screen: −y seen from the side, +z from the top.
+    Down,
+    /// Up the screen: +y seen from the side, −z from the top.
+    Up,
+    /// Right: +x.
+    Right,
+}

@@ -1,0 +1,212 @@
+//! The one key table: what the keys do, the help and the hint line all come from it.
+
+use std::fmt;
+
+use super::action::{Action, Direction};
+use crate::physics::Method;
+
+/// A key as a terminal can tell it: of a character the shift is in the character itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Key {
+    /// Which key.
+    pub code: Code,
+    /// With Ctrl; letters are then lower case.
+    pub ctrl: bool,
+    /// With Shift; never set for characters.
+    pub shift: bool,
+    /// With Alt.
+    pub alt: bool,
+}
+
+/// Which key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names are engraved on the keys")]
+pub enum Code {
+    /// A character.
+    Char(char),
+    /// A function key.
+    F(u8),
+    Enter,
+    Escape,
+    Tab,
+    Backspace,
+    Delete,
+    Left,
+    Right,
+    Up,
+    Down,
+    Home,
+    End,
+    PageUp,
+    PageDown,
+}
+
+impl Key {
+    /// The key alone.
+    pub const fn plain(code: Code) -> Key {
+        Key { code, ctrl: false, shift: false, alt: false }
+    }
+
+    /// The character, typed in whatever way the keyboard needs.
+    pub const fn char(c: char) -> Key {
+        Key::plain(Code::Char(c))
+    }
+
+    /// The letter with Ctrl.
+    pub const fn ctrl(c: char) -> Key {
+        Key { code: Code::Char(c), ctrl: true, shift: false, alt: false }
+    }
+
+    /// The key with Shift.
+    pub const fn shift(code: Code) -> Key {
+        Key { code, ctrl: false, shift: true, alt: false }
+    }
+
+    /// The character it types, if it types one.
+    pub fn typed(self) -> Option<char> {
+        match self.code {
+            Code::Char(c) if !self.ctrl && !self.alt && !c.is_control() => Some(c),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        for (on, name) in [(self.ctrl, "Ctrl-"), (self.alt, "Alt-"), (self.shift, "Shift-")] {
+            if on {
+                f.write_str(name)?;
+            }
+        }
+        match self.code {
+            Code::Char(' ') => f.write_str("space"),
+            Code::Char(c) if self.ctrl => write!(f, "{}", c.to_ascii_uppercase()),
+            Code::Char(c) => write!(f, "{c}"),
+            Code::F(n) => write!(f, "F{n}"),
+            Code::Escape => f.write_str("Esc"),
+            other => write!(f, "{other:?}"),
+        }
+    }
+}
+
+/// A row of the key table.
+#[derive(Debug, Clone, Copy)]
+pub struct Binding {
+    /// Any of these.
+    pub keys: &'static [Key],
+    /// What they do.
+    pub action: Action,
+    /// The same, for the help.
+    pub does: &'static str,
+    /// A word for the hint line, if it has a place there.
+    pub hint: Option<&'static str>,
+}
+
+const fn bind(keys: &'static [Key], action: Action, does: &'static str) -> Binding {
+    Binding { keys, action, does, hint: None }
+}
+
+const fn hint(keys: &'static [Key], action: Action, does: &'static str, hint: &'static str) -> Binding {
+    Binding { keys, action, does, hint: Some(hint) }
+}
+
+use Key as K;
+
+/// What every key does while nothing that takes typing is open.
+const TABLE: &[Binding] = &[
+    hint(&[K::char(' '), K::char('p')], Action::TogglePause, "pause / run", "run"),
+    hint(&[K::char('.'), K::char('n'), K::plain(Code::Right)], Action::Step, "step one frame", "step"),
+    hint(&[K::char('c')], Action::NextImpact, "run to the next collision", "collision"),
+    hint(&[K::char('r')], Action::Restart, "restart", "restart"),
+    bind(&[K::char('R')], Action::Reload, "reload the scene's file"),
+    bind(&[K::char('[')], Action::PreviousScene, "previous scene"),
+    bind(&[K::char(']')], Action::NextScene, "next scene"),
+    hint(&[K::char('?'), K::plain(Code::F(1))], Action::Help, "help", "help"),
+    hint(&[K::char('q'), K::ctrl('c')], Action::Quit, "quit", "quit"),
+    hint(&[K::char('o')], Action::Scenes, "scene list", "scenes"),
+    hint(&[K::char('+')], Action::Faster, "speed x 2", "faster"),
+    hint(&[K::char('-')], Action::Slower, "speed / 2", "slower"),
+    bind(&[K::char('=')], Action::RealTime, "real time"),
+    bind(&[K::char('t')], Action::LowerTolerance, "tolerance / 10"),
+    bind(&[K::char('T')], Action::RaiseTolerance, "tolerance x 10"),
+    bind(&[K::char('s')], Action::HalveDt, "dt / 2"),
+    bind(&[K::char('S')], Action::DoubleDt, "dt x 2"),
+    bind(&[K::char('m')], Action::NextMethod, "next method"),
+    hint(&[K::plain(Code::Tab)], Action::SelectNext, "select the next sphere", "select"),
+    bind(&[K::shift(Code::Tab)], Action::SelectPrevious, "select the sphere before"),
+    bind(&[K::char('f')], Action::Follow, "follow the selected sphere"),
+    bind(&[K::char('i')], Action::Inspector, "inspector"),
+    hint(&[K::char('v')], Action::NextViews, "views: both, side, top", "views"),
+    bind(&[K::char('d')], Action::NextOverlays, "overlays: contacts, + normals, velocities, ids, all, none"),
+    bind(&[K::char('h'), K::shift(Code::Left)], Action::Pan(Direction::Left), "pan left"),
+    bind(&[K::char('j'), K::shift(Code::Down)], Action::Pan(Direction::Down), "pan down"),
+    bind(&[K::char('k'), K::shift(Code::Up)], Action::Pan(Direction::Up), "pan up"),
+    bind(&[K::char('l'), K::shift(Code::Right)], Action::Pan(Direction::Right), "pan right"),
+    bind(&[K::char('z')], Action::ZoomIn, "zoom in"),
+    bind(&[K::char('Z')], Action::ZoomOut, "zoom out"),
+    bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
+    bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25"),
+    bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
+    bind(&[K::ctrl('z')], Action::Suspend, "suspend"),
+    bind(&[K::plain(Code::Escape)], Action::Close, "close what is open"),
+];
+
+/// What the keys do in the scene list, for the help; `scene_list` obeys them.
+const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
+
+/// The rows that have an effect in this program: with one method there is no next one.
+pub fn table() -> impl Iterator<Item = &'static Binding> {
+    TABLE.iter().filter(|row| row.action != Action::NextMethod || Method::ALL.len() > 1)
+}
+
+/// What `key` does.
+pub fn action(key: Key) -> Option<Action> {
+    table().find(|row| row.keys.contains(&key)).map(|row| row.action)
+}
+
+/// The help: (keys, what they do).
+pub fn help_rows() -> Vec<(String, &'static str)> {
+    let rows = table().map(|row| (row.keys.iter().map(Key::to_string).collect::<Vec<_>>().join(" "), row.does));
+    rows.chain([(IN_THE_LIST.0.to_owned(), IN_THE_LIST.1)]).collect()
+}
+
+/// The hint line, the most needed first: (key, a word).
+pub fn hints() -> Vec<(String, &'static str)> {
+    table().filter_map(|row| row.hint.map(|word| (row.keys[0].to_string(), word))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_is_bound_twice() {
+        let keys: Vec<Key> = table().flat_map(|row| row.keys).copied().collect();
+        for (i, key) in keys.iter().enumerate() {
+            assert!(!keys[..i].contains(key), "{key}");
+        }
+    }
+
+    #[test]
+    fn the_hints_lead_to_the_help_and_out_on_80_columns_and_all_labels_are_plain_ascii() {
+        let mut column = 0;
+        for (key, word) in hints() {
+            column += key.len() + 1 + word.len() + 2;
+            if word == "quit" {
+                break;
+            }
+        }
+        assert!(column <= 80, "`quit` ends in column {column}");
+        for (keys, does) in help_rows() {
+            assert!(keys.is_ascii() && does.is_ascii(), "{keys} {does}");
+        }
+    }
+
+    #[test]
+    fn keys_that_some_terminals_eat_are_never_the_only_way() {
+        for row in table() {
+            let plain = |key: &Key| matches!(key.code, Code::Char(_) | Code::Escape | Code::Tab);
+            assert!(row.keys.iter().any(plain), "{}", row.does);
+        }
+    }
+}

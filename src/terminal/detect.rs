@@ -1,0 +1,96 @@
+//! What the terminal can show, from the environment: a flag wins over everything.
+
+use crate::view::{Colors, Marker};
+
+/// The variables that matter here, empty ones as if unset.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Environment {
+    locale: Option<String>,
+    no_color: bool,
+    color_term: Option<String>,
+    term: Option<String>,
+    ssh: bool,
+}
+
+impl Environment {
+    /// What `variable` says.
+    pub(super) fn read(variable: impl Fn(&str) -> Option<String>) -> Environment {
+        let set = |name: &str| variable(name).filter(|value| !value.is_empty());
+        Environment {
+            locale: ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set),
+            no_color: set("NO_COLOR").is_some(),
+            color_term: set("COLORTERM"),
+            term: set("TERM"),
+            ssh: set("SSH_CONNECTION").is_some(),
+        }
+    }
+
+    /// This process's.
+    pub(super) fn ours() -> Environment {
+        Environment::read(|name| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned()))
+    }
+
+    /// Braille, unless the locale names an encoding that has no such characters. An ssh session often arrives without
+    /// any locale: that is unknown, not C.
+    pub(super) fn marker(&self, flag: Option<Marker>) -> Marker {
+        let utf8 = |locale: &str| {
+            let locale = locale.to_ascii_lowercase();
+            locale.contains("utf-8") || locale.contains("utf8")
+        };
+        flag.unwrap_or(match &self.locale {
+            Some(locale) if !utf8(locale) => Marker::Ascii,
+            _ => Marker::Braille,
+        })
+    }
+
+    /// As many as the terminal says it has, 16 if it says nothing.
+    pub(super) fn colors(&self, flag: Option<Colors>) -> Colors {
+        let term = self.term.as_deref().unwrap_or("");
+        flag.unwrap_or(match self.color_term.as_deref() {
+            _ if self.no_color => Colors::Never,
+            Some("truecolor" | "24bit") => Colors::Rgb,
+            _ if term.ends_with("-direct") => Colors::Rgb,
+            _ if term.contains("256color") => Colors::Ansi256,
+            _ => Colors::Ansi16,
+        })
+    }
+
+    /// Whether a network lies between us and the screen.
+    pub(super) fn remote(&self) -> bool {
+        self.ssh
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(set: &[(&str, &str)]) -> Environment {
+        Environment::read(|name| set.iter().find(|(known, _)| *known == name).map(|(_, value)| (*value).to_owned()))
+    }
+
+    #[test]
+    fn the_first_locale_that_is_set_decides_about_braille() {
+        let marker = |set: &[(&str, &str)]| with(set).marker(None);
+        assert_eq!(marker(&[]), Marker::Braille, "unknown");
+        assert_eq!(marker(&[("LANG", "")]), Marker::Braille, "unknown");
+        assert_eq!(marker(&[("LANG", "C")]), Marker::Ascii);
+        assert_eq!(marker(&[("LANG", "POSIX")]), Marker::Ascii);
+        assert_eq!(marker(&[("LANG", "C.UTF-8")]), Marker::Braille);
+        assert_eq!(marker(&[("LANG", "de_DE.utf8"), ("LC_ALL", "C")]), Marker::Ascii);
+        assert_eq!(marker(&[("LANG", "C"), ("LC_CTYPE", "en_US.UTF-8"), ("LC_ALL", "")]), Marker::Braille);
+        assert_eq!(marker(&[("LANG", "ja_JP.eucJP")]), Marker::Ascii);
+        assert_eq!(with(&[("LANG", "C")]).marker(Some(Marker::Block)), Marker::Block, "the flag wins");
+    }
+
+    #[test]
+    fn no_color_wins_over_what_the_terminal_can_do_and_the_flag_over_both() {
+        let colors = |set: &[(&str, &str)]| with(set).colors(None);
+        assert_eq!(colors(&[("TERM", "xterm")]), Colors::Ansi16);
+        assert_eq!(colors(&[("TERM", "xterm-256color")]), Colors::Ansi256);
+        assert_eq!(colors(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")]), Colors::Rgb);
+        assert_eq!(colors(&[("NO_COLOR", "1"), ("COLORTERM", "24bit")]), Colors::Never);
+        assert_eq!(colors(&[("NO_COLOR", ""), ("COLORTERM", "24bit")]), Colors::Rgb, "empty is unset");
+        assert_eq!(with(&[("NO_COLOR", "1")]).colors(Some(Colors::Rgb)), Colors::Rgb);
+    }
+}

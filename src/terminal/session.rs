@@ -1,0 +1,192 @@
+//! The terminal while it is ours: raw mode, alternate screen, hidden cursor; and given back on every way out.
+
+use std::{
+    fs::{File, OpenOptions},
+    io,
+    os::{
+        fd::BorrowedFd,
+        unix::{ffi::OsStrExt, fs::OpenOptionsExt},
+    },
+    panic::{self, PanicHookInfo},
+    path::Path,
+    sync::{
+        Arc, Mutex, MutexGuard, TryLockError,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use crossterm::terminal;
+use rustix::{
+    event::{PollFd, PollFlags, Timespec, poll},
+    io::Errno,
+    termios::{QueueSelector, tcflush},
+};
+
+use super::{Event, Post};
+
+/// A terminal that takes nothing for this long while we leave is left as it is: nobody may have to wait for it.
+const FAREWELL: Duration = Duration::from_millis(150);
+
+/// Alternate screen, pasted text in brackets, no cursor.
+const HELLO: &[u8] = b"\x1b[?1049h\x1b[?2004h\x1b[?25l";
+
+/// The same undone, last to first, and before that the end of a synchronized update, should we leave in one.
+const GOODBYE: &[u8] = b"\x1b[?2026l\x1b[m\x1b[?25h\x1b[?2004l\x1b[?1049l";
+
+/// The screen, shared by all who may have to give it back: drawing, signals, a panic anywhere.
+pub(super) struct Session {
+    screen: Mutex<Screen>,
+    /// Whether the terminal is ours. Once it is not, nothing is written any more.
+    ours: AtomicBool,
+}
+
+/// The way to the terminal.
+struct Screen {
+    file: File,
+    /// Whether writing to it returns instead of waiting.
+    patient: bool,
+}
+
+/// The hook that was there before ours.
+type Hook = Arc<dyn Fn(&PanicHookInfo) + Send + Sync>;
+
+/// Gives the terminal back when dropped.
+pub(super) struct Guard {
+    session: Arc<Session>,
+    previous: Hook,
+}
+
+impl Session {
+    /// Takes the terminal of `stdout` over; from now on a panic in any thread gives it back before it speaks, and is
+    /// posted.
+    ///
+    /// # Errors
+    /// If the terminal can't be put into raw mode.
+    pub(super) fn start(stdout: BorrowedFd, post: Post) -> io::Result<Guard> {
+        let session = Arc::new(Session { screen: Mutex::new(Screen::open(stdout)?), ours: AtomicBool::new(false) });
+        let previous: Hook = Arc::from(panic::take_hook());
+        let (ours, theirs) = (Arc::clone(&session), Arc::clone(&previous));
+        panic::set_hook(Box::new(move |info| {
+            ours.give_back();
+            theirs(info);
+            post.send(Event::Panicked(info.to_string()));
+        }));
+        let guard = Guard { session, previous };
+        guard.session.take()?;
+        Ok(guard)
+    }
+
+    /// Raw mode, alternate screen, no cursor; pasted text is marked as such.
+    ///
+    /// # Errors
+    /// If there is no raw mode to be had.
+    pub(super) fn take(&self) -> io::Result<()> {
+        // The mode remembered by crossterm may be older than what a shell has set since.
+        terminal::disable_raw_mode()?;
+        terminal::enable_raw_mode()?;
+        self.ours.store(true, Ordering::Release);
+        self.write(HELLO).map(drop)
+    }
+
+    /// Undoes [`Session::take`]; does nothing if that is done already. Never waits long, whatever the terminal does.
+    pub(super) fn give_back(&self) {
+        if !self.ours.swap(false, Ordering::AcqRel) {
+            return;
+        }
+        let deadline = Instant::now() + FAREWELL;
+        if let Some(screen) = self.lock_until(deadline)
+            && screen.send(GOODBYE, || Instant::now() < deadline) != Ok(true)
+        {
+            // It is full of pictures that nobody reads; they are worth less than a usable shell.
+            let _ = tcflush(&screen.file, QueueSelector::OFlush);
+            let _ = screen.send(GOODBYE, || false);
+        }
+        let _ = terminal::disable_raw_mode(); // fails only on a terminal that is gone
+    }
+
+    /// Writes all of `bytes`, waiting for the terminal as long as it is ours; false if it is not (any more).
+    ///
+    /// # Errors
+    /// If the terminal is gone.
+    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<bool> {
+        let screen = self.screen.lock().unwrap_or_else(|poison| poison.into_inner());
+        Ok(screen.send(bytes, || self.ours.load(Ordering::Acquire))?)
+    }
+
+    /// Columns and rows.
+    pub(super) fn size(&self, stdout: BorrowedFd) -> (u16, u16) {
+        rustix::termios::tcgetwinsize(stdout).map_or((0, 0), |size| (size.ws_col, size.ws_row))
+    }
+
+    /// The way to the terminal, unless whoever holds it keeps it too long (the panicking thread itself, perhaps).
+    fn lock_until(&self, deadline: Instant) -> Option<MutexGuard<'_, Screen>> {
+        loop {
+            match self.screen.try_lock() {
+                Ok(screen) => return Some(screen),
+                Err(TryLockError::Poisoned(poison)) => return Some(poison.into_inner()),
+                Err(TryLockError::WouldBlock) if Instant::now() > deadline => return None,
+                Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(1)),
+            }
+        }
+    }
+}
+
+impl Screen {
+    /// Opens the terminal of `stdout` anew, so that writing without waiting concerns nobody else who has it open.
+    fn open(stdout: BorrowedFd) -> io::Result<Screen> {
+        let name = rustix::termios::ttyname(stdout, Vec::new());
+        let anew = name.ok().and_then(|name| {
+            let path = Path::new(std::ffi::OsStr::from_bytes(name.to_bytes()));
+            let flags = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOCTTY;
+            OpenOptions::new().write(true).custom_flags(flags.bits() as i32).open(path).ok()
+        });
+        match anew {
+            Some(file) => Ok(Screen { file, patient: false }),
+            None => Ok(Screen { file: File::from(stdout.try_clone_to_owned()?), patient: true }),
+        }
+    }
+
+    /// Writes `bytes`, and while the terminal is full tries again as long as `wanted`; whether all was written.
+    fn send(&self, bytes: &[u8], wanted: impl Fn() -> bool) -> Result<bool, Errno> {
+        // A file that waits is given no more than a terminal surely takes at once.
+        let piece = if self.patient { 256 } else { usize::MAX };
+        let mut rest = bytes;
+        while !rest.is_empty() {
+            match rustix::io::write(&self.file, &rest[..rest.len().min(piece)]) {
+                Ok(n) => rest = &rest[n..],
+                Err(Errno::INTR) => {}
+                Err(Errno::AGAIN) => self.wait(),
+                Err(gone) => return Err(gone),
+            }
+            if !rest.is_empty() && !wanted() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Until the terminal takes more, but not long: it may cease to be ours meanwhile.
+    fn wait(&self) {
+        let some_time = Timespec { tv_sec: 0, tv_nsec: 20_000_000 };
+        let _ = poll(&mut [PollFd::new(&self.file, PollFlags::OUT)], Some(&some_time)); // a signal ends it early
+    }
+}
+
+impl Guard {
+    /// The session.
+    pub(super) fn session(&self) -> &Arc<Session> {
+        &self.session
+    }
+}
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        self.session.give_back();
+        if !thread::panicking() {
+            let previous = Arc::clone(&self.previous);
+            panic::set_hook(Box::new(move |info| previous(info)));
+        }
+    }
+}

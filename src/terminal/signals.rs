@@ -1,0 +1,54 @@
+//! Signals as events, and stopping in a way that somebody can undo.
+
+use std::{io, sync::Arc, thread, time::Duration};
+
+use rustix::process::{Signal, getpgrp, getppid, getsid, kill_current_process_group};
+use signal_hook::{
+    consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP, SIGWINCH},
+    iterator::Signals,
+};
+
+use super::{Event, Post, session::Session};
+
+/// Time to leave in good order after a signal to end; then the process ends as it is.
+const GRACE: Duration = Duration::from_millis(500);
+
+/// Starts the thread that turns signals into events.
+///
+/// # Errors
+/// If the system refuses a handler or the thread.
+pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
+    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH])?;
+    thread::Builder::new().name("signals".into()).spawn(move || {
+        for signal in signals.forever() {
+            match signal {
+                SIGWINCH => post.send(Event::Resized),
+                SIGTSTP => post.send(Event::Suspend),
+                SIGCONT => post.send(Event::Continued),
+                end => {
+                    post.send(Event::End(end));
+                    // Whoever draws may be stuck. This thread dies with the process if not.
+                    thread::sleep(GRACE);
+                    session.give_back();
+                    std::process::exit(128 + end);
+                }
+            }
+        }
+    })?;
+    Ok(())
+}
+
+/// Whether a shell is there that could continue us after a stop: it leads our session and our group is a job of its.
+/// Under `ssh -t host carom` our group is the session's own, and a stop would be for ever.
+pub(super) fn somebody_could_continue_us() -> bool {
+    let (Ok(session), Some(parent)) = (getsid(None), getppid()) else { return false };
+    getpgrp() != session && getsid(Some(parent)) == Ok(session)
+}
+
+/// Stops our process group; returns when it is continued.
+///
+/// # Errors
+/// If the system refuses.
+pub(super) fn stop() -> io::Result<()> {
+    Ok(kill_current_process_group(Signal::STOP)?)
+}

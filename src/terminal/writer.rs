@@ -1,0 +1,37 @@
+//! Sends pictures on a thread of its own, so that a terminal that takes nothing stops nobody.
+
+use std::{
+    sync::{
+        Arc,
+        mpsc::{self, SyncSender},
+    },
+    thread,
+};
+
+use super::{Event, Post, session::Session};
+
+/// The sending end: one picture on its way at a time.
+pub(super) struct Writer {
+    mailbox: SyncSender<Vec<u8>>,
+}
+
+impl Writer {
+    /// Starts the thread. After each picture it posts [`Event::Sent`]; when the terminal is gone, [`Event::Gone`].
+    ///
+    /// # Errors
+    /// If the system has no thread to give.
+    pub(super) fn start(session: Arc<Session>, post: Post) -> std::io::Result<Writer> {
+        let (mailbox, pictures) = mpsc::sync_channel::<Vec<u8>>(1);
+        thread::Builder::new().name("terminal output".into()).spawn(move || {
+            for picture in pictures {
+                post.send(if session.write(&picture).is_ok() { Event::Sent } else { Event::Gone });
+            }
+        })?;
+        Ok(Writer { mailbox })
+    }
+
+    /// Sends a picture. Only after the one before was [`Event::Sent`]; otherwise it is dropped.
+    pub(super) fn send(&self, picture: Vec<u8>) {
+        let _ = self.mailbox.try_send(picture); // the thread ends only after it has posted that the terminal is gone
+    }
+}
