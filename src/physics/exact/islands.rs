@@ -132,6 +132,11 @@ impl Rests {
         !self.of.is_empty() && !self.of[key.1].is_empty() && self.held.contains_key(&key)
     }
 
+    /// How many contacts of sphere `i` rest.
+    pub(super) fn count(&self, i: usize) -> usize {
+        self.of.get(i).map_or(0, Vec::len)
+    }
+
     /// Whether islands wait to be settled.
     #[inline]
     pub(super) fn is_dirty(&self) -> bool {
@@ -417,7 +422,7 @@ impl Exact {
         let (opening, kept) = (pick(true), pick(false));
         for &key in &opening {
             self.release(model, log, key);
-            self.part(model, key);
+            self.part(model, key, 0.0);
         }
         if !opening.is_empty() {
             return Ok(Some(kept));
