@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use super::model::Face;
 use super::motion::normal_velocity;
+use super::parts::part_ahead;
 use crate::roots::{bound, bracketed, monotone, value};
 
 /// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
@@ -370,12 +371,17 @@ impl Search<'_> {
         (at.gap <= self.rounding(t) && self.approaching(t, &at)).then_some(t)
     }
 
-    /// v_n < 0; or v_n = 0 to rounding and about to become negative: the apex of what overlaps, and rest.
+    /// v_n < 0; or v_n = 0 (at a later time: to rounding) and about to become negative: rest, and the apex of what
+    /// overlaps.
     fn approaching(&self, t: f64, at: &Touch) -> bool {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
-        let noise = 1e-13 * (self.path.v.length() + v.length());
-        let bends = || at.normal.dot(self.path.a) + curvature(self.face, at.part, at.normal, v, self.r);
+let noise = if t > 0.0 { 1e-13 * (self.path.v.length() + v.length()) } else { 0.0 };
+        // On a border it is the part ahead that counts: over an edge a fast sphere leaves what it was pressed against.
+        let bends = || {
+            let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);
+            at.normal.dot(self.path.a) + curvature(self.face, ahead, at.normal, v, self.r)
+        };
         closing < 0.0 || closing <= noise && bends() < 0.0
     }
 

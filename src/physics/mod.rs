@@ -16,6 +16,7 @@ pub mod motion;
 pub mod neighbors;
 pub mod overlap;
 mod paper;
+mod parts;
 mod requirements;
 mod sealed;
 pub mod state;

@@ -57,6 +57,8 @@ pub struct Tallies {
     pub deepest_degree: f64,
     /// Time that `exact` spent in curved rest, which it integrates to 1e-12 instead of solving it, s.
     pub inexact_time: f64,
+    /// Inelastic collapses: contacts that `exact` lets rest because they struck a thousand times at one instant.
+    pub collapses: u64,
 }
 
 /// Why a run cannot go on.

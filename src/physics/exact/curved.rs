@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::super::contact_time::{Part, edge_direction, touch_part};
 use super::super::model::Face;
 use super::super::support::{Bodies, Resting, Row, Surface, accelerations, bind};
-use super::parts::room;
+use crate::physics::parts::room;
 
 /// How far the chord parabola may be from the path, in radii.
 const DEPARTURE: f64 = 1e-13;

@@ -8,6 +8,7 @@ use super::Exact;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
+use crate::physics::parts::part_ahead;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
@@ -22,7 +23,16 @@ const MOST_AT_ONCE: u64 = 1_000_000;
 const STRETCH: u64 = 20_000_000;
 
 /// Flights shorter than this many times the clock's rounding, over 1 − e, never decay (Zeno).
-const ZENO: f64 = 10.0;
+pub(super) const ZENO: f64 = 10.0;
+
+/// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
+const HOP: f64 = 4.0 * f64::EPSILON;
+
+/// Bounces whose hops are lower than this many radii are summed up in closed form.
+const SMALL_HOP: f64 = 1e-12;
+
+/// Normal velocities below this share of the speed may be those of a sphere that slides.
+const SLOW: f64 = 1e-6;
 
 /// Coarsest time scale at which rounding of the clock is ignored, s.
 const CLOCK: f64 = 1e-3;
@@ -145,8 +155,11 @@ impl Exact {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], model.radii[a]);
                 let at = touch(face, path.x, r);
-                let a_n = at.normal.dot(path.a) + curvature(face, at.part, at.normal, path.v, r);
                 let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
+                // only what may rest asks on which side of a border it will be
+                let slow = v_n.abs() <= SLOW * path.v.length();
+                let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
+                let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
                 Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
             }
             Kind::Pair => {
@@ -166,23 +179,36 @@ impl Exact {
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
-        match self.class(model, &meeting) {
+        match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
-                self.rests.propose(model, &self.flight, self.now, &meeting);
+                self.rests.propose(model, &self.flight, self.now, &meeting, self.now + self.bounces_left(model, &meeting));
                 Ok(())
             }
-            Class::Leave | Class::Release => Ok(()),
+            Class::Leave | Class::Release => {
+                if meeting.a_n >= 0.0 {
+                    self.part(model, key, f64::EPSILON * self.flight.lines[key.1].v.length());
+                }
+                Ok(())
+            }
         }
     }
 
-    fn class(&mut self, model: &Model, meeting: &Meeting) -> Class {
+    fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Class {
         let (kind, ..) = meeting.key;
         let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
         let pressed = meeting.a_n < 0.0;
         let tick = self.tick();
         if pressed && meeting.v_n.abs() <= ZENO * -meeting.a_n * tick {
             // the flight would last no longer than the clock can tell
+            return Class::Rest;
+        }
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        if pressed && hop <= HOP * meeting.point.abs().max_element().max(meeting.reach) {
+            // the flight would go no higher than coordinates can tell
+            return Class::Rest;
+        }
+        if pressed && hop <= SMALL_HOP * meeting.reach && self.bounces_left(model, meeting) > 0.0 {
             return Class::Rest;
         }
         let mut law = model.law;
@@ -194,10 +220,23 @@ impl Exact {
             let count = self.instant.impacts.entry(meeting.key).or_default();
             *count += 1;
             if *count > COLLAPSE {
+                log.tallies.collapses += 1;
                 return Class::Rest;
             }
         }
         class
+    }
+
+    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
+    /// flights, 2 e |v_n| / (g_n (1 − e)). Only where they change nothing but the height, and where no rest speed ends
+    /// them before.
+    fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
+        let (law, e) = (&model.law, model.law.wall_restitution);
+        let closed_form = meeting.key.0 == Kind::Wall && law.tangential == 1.0 && e < 1.0;
+        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
+            return 0.0;
+        }
+        2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
     }
 
     /// Rounding of the clock, s.
@@ -225,7 +264,7 @@ impl Exact {
                 impulse
             }
         };
-        self.part(model, meeting.key);
+        self.part(model, meeting.key, 0.0);
         let row = meeting.row(self.now, Class::Collide, impulse, target);
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
         log.contacts.push(row);
@@ -248,17 +287,19 @@ impl Exact {
         self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
 
-    /// Sees to it that a contact that is over does not approach by a rounding: the predictor would find it again and
-    /// again.
-    pub(super) fn part(&mut self, model: &Model, key: Key) {
-        let a = key.1;
-        let mut nudge = f64::EPSILON * self.flight.lines[a].v.length().max(f64::MIN_POSITIVE);
+    /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
+    /// again and again. The body that is freer gives way.
+    pub(super) fn part(&mut self, model: &Model, key: Key, least: f64) {
+        let (kind, a, b) = key;
+        let yields = kind == Kind::Pair && self.rests.count(b) < self.rests.count(a);
+        let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
+        let mut nudge = f64::EPSILON * self.flight.lines[i].v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
             let meeting = self.seen(model, key);
-            if meeting.v_n >= 0.0 || meeting.v_n.is_nan() {
+            if meeting.v_n >= least || meeting.v_n.is_nan() {
                 return;
             }
-            self.push(a, meeting.normal * nudge.max(-meeting.v_n));
+            self.push(i, meeting.normal * (sign * nudge.max(least - meeting.v_n)));
             nudge *= 2.0;
         }
     }

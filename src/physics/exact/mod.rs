@@ -12,7 +12,7 @@ mod flight;
 mod impact;
 mod islands;
 mod load;
-mod parts;
+
 mod prediction;
 mod queue;
 mod rest;

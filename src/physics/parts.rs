@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 
-use super::super::contact_time::{Part, Path, quadratic_fall};
-use super::super::model::Face;
+use super::contact_time::{Part, Path, quadratic_fall};
+use super::model::Face;
 
 /// A plane beyond which another part takes over: `normal`·(x − `at`) is the room left, m.
 #[derive(Clone, Copy)]
@@ -45,14 +45,14 @@ fn borders(face: &Face, part: Part) -> impl Iterator<Item = Border> {
 
 /// How far the point closest to `x` is inside a part of a wall, m: the least distance to where another part takes over;
 /// negative beyond.
-pub(super) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
+pub(in crate::physics) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
     borders(face, part).map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
 }
 
 /// When a centre on `path`, in touch with `part` of a wall, comes to where another part takes over, s from now: the first
 /// time at which it is on the border or beyond and moving outwards, so that a start on the border does not count as an
 /// end unless it leads out. Only times below `before` (s) matter.
-pub(super) fn part_end(face: &Face, part: Part, path: &Path, before: f64) -> Option<f64> {
+pub(in crate::physics) fn part_end(face: &Face, part: Part, path: &Path, before: f64) -> Option<f64> {
     let end = |border: Border| {
         let n = border.inward;
         quadratic_fall([n.dot(path.x - border.at), n.dot(path.v), 0.5 * n.dot(path.a)])
@@ -63,7 +63,7 @@ pub(super) fn part_end(face: &Face, part: Part, path: &Path, before: f64) -> Opt
 /// The part of a wall that is closest to a sphere of radius `r` (m) at `x` just from now on, given how it moves: on a
 /// border it is the part that the motion leads to. Decided by the borders alone: near a corner the distances to the
 /// corner and to the edge beside it differ by less than rounding.
-pub(super) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> Part {
+pub(in crate::physics) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> Part {
     // Far enough to be clear of the rounding of x, near enough not to change anything but a border's side.
     let ahead = 1e-9 * r;
     let direction = if v == DVec3::ZERO { a } else { v };

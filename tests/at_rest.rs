@@ -1,0 +1,252 @@
+//! What rests stays at rest, and what slides follows its closed form, in the event-driven method.
+
+#[allow(dead_code)]
+mod support;
+
+use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::scene::{ContactLaw, Sphere, Wall};
+use glam::{DVec3, dvec3};
+use support::{ELASTIC, G, PAPER_LAW, room, scene, sphere, wall};
+
+/// Impacts lose half of the approach speed.
+const HALF: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, ..PAPER_LAW };
+
+/// Friction at impacts would only blur the closed forms.
+const SMOOTH: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, tangential: 1.0, rest_speed: 0.1 };
+
+fn exact(scene: &Scene) -> Simulation {
+    let mut run = Simulation::new(scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-3 });
+    run.record_events(true);
+    run
+}
+
+/// Runs to `until`, s; returns the state then.
+fn go(run: &mut Simulation, until: f64) -> State {
+    for _ in 0..1000 {
+        match run.advance(Until::Time(until), 100_000) {
+            Progress::Reached => return run.at(until),
+            Progress::Yielded => {}
+            Progress::Stalled(stall) => panic!("{}", stall.reason),
+        }
+    }
+    panic!("a hundred million events and still at {} s", run.time());
+}
+
+/// Deepest overlap of any two bodies, m.
+fn deepest(scene: &Scene, x: &[DVec3]) -> f64 {
+    let mut deepest = 0.0_f64;
+    for (i, a) in scene.spheres.iter().enumerate() {
+        for wall in &scene.walls {
+            deepest = deepest.max(a.radius - wall.shape.distance(x[i]));
+        }
+        for (j, b) in scene.spheres.iter().enumerate().skip(i + 1) {
+            deepest = deepest.max(a.radius + b.radius - x[i].distance(x[j]));
+        }
+    }
+    deepest
+}
+
+/// Runs for 100 s and complains if anything moved by more than 1e-11 m, overlapped by more than that, or moves.
+fn assert_rests(what: &str, scene: &Scene) {
+    let mut run = exact(scene);
+    for tenth in 1..=10 {
+        let state = go(&mut run, 10.0 * f64::from(tenth));
+        let drift = state.x.iter().zip(&scene.spheres).map(|(x, s)| x.distance(s.x)).fold(0.0, f64::max);
+        assert!(drift <= 1e-11, "{what}: drifted by {drift:e} m until {} s", state.t);
+        assert!(deepest(scene, &state.x) <= 1e-11, "{what}: overlaps by {:e} m", deepest(scene, &state.x));
+    }
+    assert_eq!(run.tallies().impacts, 0, "{what}: resting bodies collided");
+}
+
+fn still(x: DVec3) -> Sphere {
+    sphere(x, DVec3::ZERO, 0.5)
+}
+
+/// A V along z with its crease in the origin, slopes of 3-4-5, 4 m down each side.
+fn groove() -> Vec<Wall> {
+    let side = |x: f64| wall(dvec3(2.0 * x, 1.5, 0.0), dvec3(4.0 * x, 3.0, 0.0), dvec3(0.0, 0.0, 8.0));
+    vec![side(1.0), side(-1.0)]
+}
+
+/// A tube of square section, as wide as a sphere, and its floor.
+fn tube() -> Vec<Wall> {
+    room(dvec3(-0.5, 0.0, -0.5), dvec3(0.5, 20.0, 0.5))
+}
+
+/// The 4-layer pyramid of thirty touching spheres between four walls.
+fn pyramid() -> Scene {
+    let mut spheres = Vec::new();
+    for layer in 0..4_u8 {
+        let (side, height) = (4 - layer, f64::from(layer) * 0.5_f64.sqrt());
+        for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+            let at = |k: u8| f64::from(k) - f64::from(side - 1) * 0.5;
+            spheres.push(still(dvec3(at(i), 0.5 + height, at(j))));
+        }
+    }
+    scene(G, HALF, room(dvec3(-2.0, 0.0, -2.0), dvec3(2.0, 10.0, 2.0)), spheres)
+}
+
+#[test]
+fn a_sphere_in_a_v_rests_for_a_hundred_seconds() {
+    assert_rests("sphere in a V", &scene(G, PAPER_LAW, groove(), vec![still(dvec3(0.0, 0.625, 0.0))]));
+}
+
+#[test]
+fn a_column_of_ten_rests_for_a_hundred_seconds() {
+    let spheres = (0..10).map(|k| still(dvec3(0.0, 0.5 + f64::from(k), 0.0))).collect();
+    assert_rests("column", &scene(G, PAPER_LAW, room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 20.0, 5.0)), spheres));
+}
+
+#[test]
+fn a_heavy_sphere_on_a_column_of_light_ones_rests_for_a_hundred_seconds() {
+    let mut spheres: Vec<_> = (0..10).map(|k| still(dvec3(0.0, 0.5 + f64::from(k), 0.0))).collect();
+    spheres[9].mass = 1e8;
+    assert_rests("column under 1e8 kg", &scene(G, PAPER_LAW, tube(), spheres));
+}
+
+#[test]
+fn a_confined_pyramid_rests_for_a_hundred_seconds() {
+    assert_rests("pyramid", &pyramid());
+}
+
+#[test]
+fn a_sphere_on_the_seam_of_two_tiles_rests_and_rebounds_once() {
+    let tile = |x: f64| wall(dvec3(x, 0.0, 0.0), dvec3(4.0, 0.0, 0.0), dvec3(0.0, 0.0, -4.0));
+    let tiles = vec![tile(-2.0), tile(2.0)];
+    assert_rests("sphere on a seam", &scene(G, PAPER_LAW, tiles.clone(), vec![still(dvec3(0.0, 0.5, 0.0))]));
+    // Dropped from 1 m with e = 0.8, it comes back to 0.64 m, not to what two impulses would make of it.
+    let mut run = exact(&scene(G, PAPER_LAW, tiles, vec![still(dvec3(0.0, 1.5, 0.0))]));
+    let fall = (2.0_f64 / 9.8).sqrt();
+    let state = go(&mut run, 1.8 * fall);
+    assert!((state.x[0].y - 1.14).abs() < 1e-12, "apex at {}", state.x[0].y);
+    assert_eq!(run.tallies().impacts, 1);
+}
+
+#[test]
+fn three_touching_spheres_in_a_corner_rest_for_a_hundred_seconds() {
+    let walls = room(dvec3(0.0, 0.0, 0.0), dvec3(2.0, 5.0, 5.0));
+    let top = dvec3(1.0, 0.5 + 0.75_f64.sqrt(), 0.5);
+    let spheres = vec![still(dvec3(0.5, 0.5, 0.5)), still(dvec3(1.5, 0.5, 0.5)), still(top)];
+    assert_rests("three in a corner", &scene(dvec3(0.0, -9.8, -2.0), PAPER_LAW, walls, spheres));
+}
+
+#[test]
+fn ten_spheres_dropped_in_a_tube_come_to_rest_on_each_other() {
+    let spheres = (0..10).map(|k| still(dvec3(0.0, 0.6 + 1.1 * f64::from(k), 0.0))).collect();
+    let scene = scene(G, HALF, tube(), spheres);
+    let mut run = exact(&scene);
+    let state = go(&mut run, 20.0);
+    for (k, x) in state.x.iter().enumerate() {
+        // Each landing leaves a gap of rounding's size, and ten of them add up.
+        assert!((*x - dvec3(0.0, 0.5 + k as f64, 0.0)).length() < 1e-11, "sphere {k} at {x}");
+    }
+    assert!(state.v.iter().all(|v| *v == DVec3::ZERO), "{:?}", state.v);
+    let later = go(&mut run, 120.0);
+    assert_eq!(later.x, state.x, "they drift");
+}
+
+/// The `release` rows.
+fn releases(run: &mut Simulation) -> Vec<Contact> {
+    run.take_events().into_iter().filter(|event| event.class == Class::Release).collect()
+}
+
+/// A shelf of 4 m whose edge at x = 0 runs along z.
+fn shelf() -> Vec<Wall> {
+    vec![wall(dvec3(-2.0, 0.0, 0.0), dvec3(4.0, 0.0, 0.0), dvec3(0.0, 0.0, -4.0))]
+}
+
+#[test]
+fn a_sphere_slides_over_an_edge_and_leaves_it_where_its_weight_no_longer_turns_it() {
+    // N = 0 at v² = g r cos θ, energy: cos θ = 2/3 + v₀²/(3 g r).
+    for speed in [0.5, 1.0, 2.0] {
+        let scene = scene(G, SMOOTH, shelf(), vec![sphere(dvec3(-0.3, 0.5, 0.0), DVec3::X * speed, 0.5)]);
+        let mut run = exact(&scene);
+        let state = go(&mut run, 0.3 / speed + 1.0);
+        let last = releases(&mut run).last().copied().expect("it leaves the shelf");
+        let cosine = 2.0 / 3.0 + speed * speed / (3.0 * 9.8 * 0.5);
+        assert!((last.normal.y - cosine).abs() < 1e-11, "v = {speed}: left at {} instead of {cosine}", last.normal.y);
+        let energy = state.energy(run.model());
+        assert!((energy - run.initial_energy()).abs() < 1e-11, "v = {speed}: {energy} J, not {}", run.initial_energy());
+        assert!(state.x[0].y < -0.5, "v = {speed}: it has not fallen: {}", state.x[0]);
+    }
+}
+
+#[test]
+fn a_sphere_too_fast_for_the_edge_leaves_it_at_once() {
+    // v² > g r: the parabola from the edge is the answer.
+    let scene = scene(G, SMOOTH, shelf(), vec![sphere(dvec3(-0.3, 0.5, 0.0), DVec3::X * 3.0, 0.5)]);
+    let mut run = exact(&scene);
+    let t = 0.3 / 3.0 + 0.5;
+    let state = go(&mut run, t);
+    let expected = dvec3(1.5, 0.5 - 4.9 * 0.25, 0.0);
+    assert!(state.x[0].distance(expected) < 1e-12, "{} instead of {expected}", state.x[0]);
+    let left = releases(&mut run);
+    assert!(left.iter().all(|row| (row.time - 0.1).abs() < 1e-8), "{left:?}");
+}
+
+#[test]
+fn a_sphere_set_down_beside_an_edge_rolls_off_it_from_there() {
+    // Starts on the edge at cos θ₀ = 0.96: leaves at 2/3 of that.
+    let scene = scene(G, SMOOTH, shelf(), vec![still(dvec3(0.14, 0.48, 0.0))]);
+    let mut run = exact(&scene);
+    go(&mut run, 1.0);
+    let last = releases(&mut run).last().copied().expect("it leaves the edge");
+    assert!((last.normal.y - 0.64).abs() < 1e-11, "left at {}", last.normal.y);
+}
+
+#[test]
+fn a_sphere_slides_off_another_and_both_keep_energy_and_momentum() {
+    // Equal masses, the lower free on a smooth floor: leaves where cos³θ − 6 cos θ + 4 cos θ₀ = 0.
+    let floor = vec![wall(DVec3::ZERO, dvec3(40.0, 0.0, 0.0), dvec3(0.0, 0.0, -40.0))];
+    let spheres = vec![still(dvec3(0.0, 0.5, 0.0)), still(dvec3(0.28, 1.46, 0.0))];
+    let scene = scene(G, ContactLaw { rest_speed: 0.0, ..ELASTIC }, floor, spheres);
+    let mut run = exact(&scene);
+    let state = go(&mut run, 2.0);
+    let left = releases(&mut run).into_iter().find(|row| row.kind == Kind::Pair).expect("it slides off");
+    let cosine = left.normal.y.abs();
+    assert!((cosine * cosine * cosine - 6.0 * cosine + 4.0 * 0.96).abs() < 1e-10, "left at {cosine}");
+    let energy = state.energy(run.model());
+    assert!((energy - run.initial_energy()).abs() < 1e-11, "{energy} J, not {}", run.initial_energy());
+    let momentum = state.momentum(run.model());
+    assert!(momentum.x.abs() < 1e-11 && momentum.z == 0.0, "{momentum}");
+}
+
+#[test]
+fn a_sphere_slides_down_a_slope_of_tiles_as_if_it_were_one() {
+    // Two tiles in one plane of 3-4-5; s = ½ · 9.8 · 0.6 · t².
+    let down = dvec3(0.8, -0.6, 0.0);
+    let tile = |k: f64| wall(down * (2.0 + 4.0 * k), down * 4.0, dvec3(0.0, 0.0, 4.0));
+    let up = dvec3(0.6, 0.8, 0.0);
+    let start = down * 1.0 + up * 0.5;
+    let mut run = exact(&scene(G, PAPER_LAW, vec![tile(0.0), tile(1.0)], vec![still(start)]));
+    let state = go(&mut run, 1.5);
+    let expected = start + down * (0.5 * 9.8 * 0.6 * 2.25);
+    assert!(state.x[0].distance(expected) < 1e-13, "{} instead of {expected}", state.x[0]);
+    assert_eq!(run.tallies().impacts, 0);
+}
+
+#[test]
+fn a_row_of_spheres_slides_down_a_slope_together() {
+    let down = dvec3(0.8, -0.6, 0.0);
+    let up = dvec3(0.6, 0.8, 0.0);
+    let slope = vec![wall(down * 10.0, down * 20.0, dvec3(0.0, 0.0, 4.0))];
+    let start: Vec<_> = (0..4).map(|k| down * (1.0 + f64::from(k)) + up * 0.5).collect();
+    let mut run = exact(&scene(G, PAPER_LAW, slope, start.iter().map(|&x| still(x)).collect()));
+    let state = go(&mut run, 2.0);
+    for (x, start) in state.x.iter().zip(start) {
+        let expected = start + down * (0.5 * 9.8 * 0.6 * 4.0);
+        assert!(x.distance(expected) < 1e-12, "{x} instead of {expected}");
+    }
+    assert_eq!(run.tallies().impacts, 0);
+}
+
+#[test]
+fn two_spheres_dropped_into_a_v_end_up_mirrored_and_still() {
+    let spheres = vec![still(dvec3(-1.0, 3.0, 0.0)), still(dvec3(1.0, 3.0, 0.0))];
+    let scene = scene(G, HALF, groove(), spheres);
+    let mut run = exact(&scene);
+    let state = go(&mut run, 2.0);
+    let asymmetry = (state.x[0] - dvec3(-state.x[1].x, state.x[1].y, state.x[1].z)).length();
+    assert!(asymmetry < 1e-10, "asymmetry {asymmetry:e}");
+    assert!(deepest(&scene, &state.x) < 1e-12);
+}
