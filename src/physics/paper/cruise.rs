@@ -85,9 +85,10 @@ impl Paper {
     fn one_flies<F: Flight, const WALLS: bool>(&mut self, flight: F, model: &Model, leg: Leg) -> (u64, bool) {
         let mut now = Point { x: self.end.x[0], v: self.end.v[0], t: self.end.t };
         let (mut frames, mut one_by_one) = (0, 0);
-        let size = if WALLS { BLOCK } else { LONG_BLOCK };
         loop {
-            if one_by_one == 0 && frames + size < leg.most && now.t + leg.dt * (size as f64) < leg.goal {
+            let fits = |size: u64| frames + size < leg.most && now.t + leg.dt * (size as f64) < leg.goal;
+            let size = if !WALLS && fits(LONG_BLOCK) { LONG_BLOCK } else { BLOCK };
+            if one_by_one == 0 && fits(size) {
                 match block::<F, WALLS>(flight, model, now, leg, size) {
                     Some(after) => {
                         now = after;
@@ -152,7 +153,7 @@ impl Point {
 const BLOCK: u64 = 64;
 
 /// The same without walls.
-const LONG_BLOCK: u64 = 1024;
+const LONG_BLOCK: u64 = 4096;
 
 /// A block of frames; none if any of them has to be looked at, or reaches the goal. What is no number stays so, and a
 /// time that does not change never will, so that asking at the end is enough.
