@@ -134,9 +134,9 @@ impl Hand {
     }
 
     fn meet_walls(&mut self) {
-        for x in &self.end.0 {
+        for (x, radius) in self.end.0.iter().zip(&self.model.radii) {
             for (center, normal) in &self.walls {
-                if (*x - *center).dot(*normal).abs() <= self.radius {
+                if (*x - *center).dot(*normal).abs() <= *radius {
                     self.touched += 1;
                 }
             }

@@ -11,6 +11,9 @@ use super::{Class, Kind, Model};
 /// What flight does to a velocity; a type for each [`Pull`](super::model::Pull), so that a loop over spheres contains nothing that the
 /// scene does not require.
 pub trait Flight: Copy {
+    /// Whether it changes velocities at all.
+    const BENDS: bool = true;
+
     /// The velocity of sphere `i` (m/s) a time `h` (s) after it was `v`.
     fn velocity(self, v: DVec3, i: usize, h: f64) -> DVec3;
 }
@@ -28,6 +31,8 @@ pub struct Uniform(pub DVec3);
 pub struct PerSphere<'a>(pub &'a [DVec3]);
 
 impl Flight for Straight {
+    const BENDS: bool = false;
+
     #[inline(always)]
     fn velocity(self, v: DVec3, _: usize, _: f64) -> DVec3 {
         v

@@ -61,25 +61,6 @@ pub fn touching(r: f64, at: f64) -> f64 {
     (1e-12 * r).max(8.0 * f64::EPSILON * at)
 }
 
-/// Degree of a sphere of radius `r` (m) at `x` with a wall, or nothing if it is below −`slack`. `from` as in
-/// [`wall_touch`].
-#[inline(always)]
-fn wall_degree(face: &Face, from: DVec3, x: DVec3, r: f64, slack: f64) -> Option<f64> {
-    // The plane is never farther than the parallelogram: most spheres are done here.
-    if face.height(x).abs() > r * (1.0 + slack) {
-        return None;
-    }
-    near_wall(face, from, x, r, slack)
-}
-
-/// The rest of [`wall_degree`], for the few spheres near the plane.
-#[cold]
-#[inline(never)]
-fn near_wall(face: &Face, from: DVec3, x: DVec3, r: f64, slack: f64) -> Option<f64> {
-    let degree = wall_touch(face, from, x, r).degree;
-    (degree >= -slack).then_some(degree)
-}
-
 /// Spheres at `a` and `b` (m) of radii `r_a` and `r_b` (m).
 pub fn pair_touch(a: DVec3, b: DVec3, r_a: f64, r_b: f64) -> Touch {
     let (arm, reach) = (a - b, r_a + r_b);
@@ -170,8 +151,8 @@ enum Stage {
 /// Spheres or cells worked on between two looks at the budget.
 pub const CHUNK: usize = 4096;
 
-/// By how much radii grow for a search at load: more than [`touching`] ever allows.
-const LOAD_GROWTH: f64 = 1.0 + 1e-7;
+/// By how much radii grow for the coarse tests at load: more than [`touching`] allows up to 5e8 radii from the origin.
+const LOAD_GROWTH: f64 = 1.0 + 1e-6;
 
 impl Finder {
     /// A finder for this model's trial states.
@@ -207,11 +188,13 @@ impl Finder {
     #[inline(always)]
     pub fn walls(&mut self, model: &Model, from: &[DVec3], x: &[DVec3], range: Range<usize>) {
         if !model.faces.is_empty() {
+            let growth = self.growth();
             for i in range.clone() {
+                let (x, r) = (x[i], model.radii[i]);
                 for (w, face) in model.faces.iter().enumerate() {
-                    let slack = self.slack(model.radii[i], x[i], face.shape.center);
-                    if let Some(degree) = wall_degree(face, from[i], x[i], model.radii[i], slack) {
-                        self.found.push(Overlap { key: (Kind::Wall, i, w), degree });
+                    // The plane is never farther than the parallelogram: most spheres are done here.
+                    if face.height(x).abs() <= r * growth {
+                        self.meet(model, from[i], x, (i, w));
                     }
                 }
             }
@@ -220,6 +203,22 @@ impl Finder {
         if let Some(cells) = &mut self.cells {
             cells.count(x, range);
         }
+    }
+
+    /// A sphere near the plane of a wall.
+    #[cold]
+    #[inline(never)]
+    fn meet(&mut self, model: &Model, from: DVec3, x: DVec3, (i, w): (usize, usize)) {
+        let (face, r) = (&model.faces[w], model.radii[i]);
+        let degree = wall_touch(face, from, x, r).degree;
+        if degree >= -slack(self.at_load, r, x, face.shape.center) {
+            self.found.push(Overlap { key: (Kind::Wall, i, w), degree });
+        }
+    }
+
+    /// By how much radii grow for the coarse tests.
+    fn growth(&self) -> f64 {
+        if self.at_load { LOAD_GROWTH } else { 1.0 }
     }
 
     /// Goes on with the pairs, after all walls: whether all overlaps are found, and the work that took.
@@ -237,7 +236,7 @@ impl Finder {
         for a in 0..x.len() {
             for b in a + 1..x.len() {
                 let reach = r[a] + r[b];
-                if let Some(degree) = pair_degree(x[a], x[b], reach, self.slack(reach, x[a], x[b])) {
+                if let Some(degree) = pair_degree(x[a], x[b], reach, slack(self.at_load, reach, x[a], x[b])) {
                     self.found.push(Overlap { key: (Kind::Pair, a, b), degree });
                 }
             }
@@ -248,6 +247,7 @@ impl Finder {
     }
 
     fn near_pairs(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
+        let growth = self.growth();
         let Some(cells) = &mut self.cells else { return (true, 0) };
         match self.stage {
             Stage::Open => {
@@ -258,7 +258,6 @@ impl Finder {
             }
             Stage::Scatter(from) => {
                 let to = x.len().min(from + CHUNK);
-                let growth = if self.at_load { LOAD_GROWTH } else { 1.0 };
                 cells.scatter(x, &model.radii, growth, from..to);
                 self.stage = if to < x.len() { Stage::Scatter(to) } else { Stage::Measure(0) };
                 (false, (to - from) as u64)
@@ -279,7 +278,7 @@ impl Finder {
         let last = range.end == cells.len();
         let distances = cells.pairs(range, |a, b| {
             let reach = model.radii[a] + model.radii[b];
-            let degree = pair_degree(x[a], x[b], reach, self.slack(reach, x[a], x[b]));
+            let degree = pair_degree(x[a], x[b], reach, slack(self.at_load, reach, x[a], x[b]));
             self.found.extend(degree.map(|degree| Overlap { key: (Kind::Pair, a, b), degree }));
         });
         if last {
@@ -289,10 +288,10 @@ impl Finder {
         self.cells = Some(cells);
         work + distances
     }
+}
 
-    /// The gap that counts as none, in units of the size `r` (m) of the bodies at `p` and `q` (m).
-    #[inline(always)]
-    fn slack(&self, r: f64, p: DVec3, q: DVec3) -> f64 {
-        if self.at_load { touching(r, p.abs().max(q.abs()).max_element()) / r } else { 0.0 }
-    }
+/// The gap that counts as none, in units of the size `r` (m) of the bodies at `p` and `q` (m).
+#[inline(always)]
+fn slack(at_load: bool, r: f64, p: DVec3, q: DVec3) -> f64 {
+    if at_load { touching(r, p.abs().max(q.abs()).max_element()) / r } else { 0.0 }
 }

@@ -7,7 +7,7 @@ use super::super::model::PairSearch;
 use super::super::motion::{Flight, with_flight};
 use super::super::overlap::{any_near, evaluations};
 use super::super::{Model, State};
-use super::trial::{Stage, fly};
+use super::trial::{Stage, carry_velocities, fly};
 use super::{Paper, Search};
 
 /// How far a flight may go.
@@ -28,6 +28,7 @@ impl Paper {
         if model.pairs == PairSearch::Cells {
             return self.go_on(model, log);
         }
+        carry_velocities(model, &self.kicks, &self.end, &mut self.start);
         self.kicks.clear();
         self.allowed.clear();
         let cost = model.len() as u64 + evaluations(model);

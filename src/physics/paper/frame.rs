@@ -3,7 +3,7 @@
 use super::super::log::Log;
 use super::super::overlap::Overlap;
 use super::super::{Model, Probe};
-use super::trial::Stage;
+use super::trial::{Stage, carry_velocities};
 use super::{Paper, Search};
 
 /// What rounding may add to the degree of a contact that must not sink further.
@@ -14,7 +14,7 @@ impl Paper {
     pub(super) fn go_on(&mut self, model: &Model, log: &mut Log) -> u64 {
         let step = match self.trial {
             Some(step) => step,
-            None => self.open(),
+            None => self.open(model),
         };
         let work = self.compute(model, step);
         if self.stage == Stage::Complete && self.residue == 0.0 {
@@ -27,12 +27,13 @@ impl Paper {
     }
 
     /// Opens a frame: what was the end is the start, and what the last responses gave acts now.
-    fn open(&mut self) -> f64 {
+    fn open(&mut self, model: &Model) -> f64 {
         let limit = self.accepted();
         self.allowed.clear();
         self.allowed.extend(self.finder.found.iter().filter(|o| o.degree > limit));
         std::mem::swap(&mut self.start, &mut self.end);
         std::mem::swap(&mut self.kicks, &mut self.next);
+        carry_velocities(model, &self.next, &self.start, &mut self.end);
         self.search = Search::Whole;
         self.probes.clear();
         self.attempt(self.settings.dt);

@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use super::super::model::Pull;
 use super::super::motion::{Flight, with_flight};
 use super::super::overlap::CHUNK;
 use super::super::{Model, State};
@@ -24,15 +25,18 @@ pub(super) enum Stage {
 }
 
 /// `Forward(h)` of these spheres: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit Euler). Returns
-/// 0 if all new positions are finite, else NaN.
+/// 0 if all new positions are finite, else NaN. In straight flight `end` holds the velocities already.
 #[inline(always)]
 pub(super) fn fly<F: Flight>(flight: F, start: &State, end: &mut State, range: Range<usize>, h: f64) -> f64 {
     let (x0, v0) = (&start.x[range.clone()], &start.v[range.clone()]);
     let (x1, v1) = (&mut end.x[range.clone()], &mut end.v[range.clone()]);
     let mut residue = glam::DVec3::ZERO;
     for (k, i) in range.enumerate() {
-        v1[k] = flight.velocity(v0[k], i, h);
-        x1[k] = x0[k] + v1[k] * h;
+        let v = flight.velocity(v0[k], i, h);
+        if F::BENDS {
+            v1[k] = v;
+        }
+        x1[k] = x0[k] + v * h;
         residue += x1[k] * 0.0;
     }
     residue.element_sum()
@@ -49,6 +53,16 @@ fn kick(model: &Model, kicks: &[Kick], start: &State, end: &mut State, h: f64) -
         residue += (end.x[i] * 0.0).element_sum();
     }
     residue
+}
+
+/// In straight flight: brings the velocities of these kicked spheres up to date in the state that comes next, all other
+/// velocities being the same in both.
+pub(super) fn carry_velocities(model: &Model, kicks: &Kicks, now: &State, next: &mut State) {
+    if model.pull == Pull::None {
+        for kick in kicks.list() {
+            next.v[kick.sphere] = now.v[kick.sphere];
+        }
+    }
 }
 
 /// `Forward(h)` of all spheres.
