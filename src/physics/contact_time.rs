@@ -376,7 +376,7 @@ impl Search<'_> {
     fn approaching(&self, t: f64, at: &Touch) -> bool {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
-let noise = if t > 0.0 { 1e-13 * (self.path.v.length() + v.length()) } else { 0.0 };
+        let noise = if t > 0.0 { 1e-13 * (self.path.v.length() + v.length()) } else { 0.0 };
         // On a border it is the part ahead that counts: over an edge a fast sphere leaves what it was pressed against.
         let bends = || {
             let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);
