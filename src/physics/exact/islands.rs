@@ -428,7 +428,8 @@ impl Exact {
             return Ok(Some(kept));
         }
         if settled.curved {
-            let (curve, end) = Curve::next(model, bodies, contacts, self.now);
+            let (mut curve, end) = Curve::next(model, bodies, contacts, self.now);
+            curve.changes |= settled.fate.contains(&Fate::Idle);
             self.follow(&spheres, curve, &end);
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.bounces_end(keys));
