@@ -133,12 +133,13 @@ fn every_key_of_the_table_has_an_effect_that_can_be_seen() {
 }
 
 #[test]
-fn every_key_says_the_same_thing_in_the_help_as_in_the_table() {
+fn the_help_says_of_every_row_of_the_table_what_its_first_key_does() {
     let mut user = User::with("paper-0");
     user.type_in("?");
     for row in table() {
-        let keys: Vec<String> = row.keys.iter().map(Key::to_string).collect();
-        assert!(carom::app::help_rows().contains(&(keys.join(" "), row.does)));
+        let first = row.keys[0].to_string();
+        let said = |(keys, does): &(String, &str)| *does == row.does && keys.split(' ').any(|key| key == first);
+        assert!(carom::app::help_rows().iter().any(said), "{first}: {}", row.does);
     }
     assert!(user.text().contains("space p") && user.text().contains("pause / run"), "{}", user.text());
 }

@@ -158,7 +158,7 @@ pub(crate) fn wedge() -> Scene {
         evaluations: 5712,
         probes: 55,
         deepest_degree: 0.00109,
-        inexact_time: 0.0,
+        ..Tallies::default()
     };
     for (bin, impacts) in [(3, 2), (7, 1), (9, 4), (12, 1), (13, 2), (14, 1)] {
         scene.ticks.impacts[bin] = impacts;

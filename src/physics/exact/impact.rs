@@ -8,8 +8,8 @@ use super::Exact;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
-use crate::physics::parts::part_ahead;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
+use crate::physics::parts::part_ahead;
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
@@ -182,7 +182,13 @@ impl Exact {
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
-                self.rests.propose(model, &self.flight, self.now, &meeting, self.now + self.bounces_left(model, &meeting));
+                self.rests.propose(
+                    model,
+                    &self.flight,
+                    self.now,
+                    &meeting,
+                    self.now + self.bounces_left(model, &meeting),
+                );
                 Ok(())
             }
             Class::Leave | Class::Release => {

@@ -6,11 +6,11 @@ use super::Exact;
 use super::curved::{Body, Closed, Ended, On, advance, step};
 use super::flight::Flight;
 use super::impact::{Meeting, ZENO};
-use crate::physics::parts::{part_ahead, part_end};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::Part;
 use crate::physics::log::Log;
+use crate::physics::parts::{part_ahead, part_end};
 use crate::physics::support::{Fate, islands};
 use crate::physics::{Class, Kind, Model, Stall, State};
 
@@ -428,7 +428,8 @@ impl Exact {
             return Ok(Some(kept));
         }
         if settled.curved {
-            let (curve, end) = Curve::next(model, bodies, contacts, self.now);
+            let (mut curve, end) = Curve::next(model, bodies, contacts, self.now);
+            curve.changes |= settled.fate.contains(&Fate::Idle);
             self.follow(&spheres, curve, &end);
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.bounces_end(keys));
