@@ -130,9 +130,9 @@ impl Exact {
     /// The bodies of a contact now, their lines brought to the present.
     pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
         let (kind, a, b) = key;
-        self.bring(model, a);
+        self.bring(a);
         if kind == Kind::Pair {
-            self.bring(model, b);
+            self.bring(b);
         }
         self.seen(model, key)
     }
