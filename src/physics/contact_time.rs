@@ -371,11 +371,12 @@ impl Search<'_> {
         (at.gap <= self.rounding(t) && self.approaching(t, &at)).then_some(t)
     }
 
-    /// v_n < 0; or v_n = 0 to rounding and about to become negative: the apex of what overlaps, and rest.
+    /// v_n < 0; or v_n = 0 (at a later time: to rounding) and about to become negative: rest, and the apex of what
+    /// overlaps.
     fn approaching(&self, t: f64, at: &Touch) -> bool {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
-        let noise = 1e-13 * (self.path.v.length() + v.length());
+let noise = if t > 0.0 { 1e-13 * (self.path.v.length() + v.length()) } else { 0.0 };
         // On a border it is the part ahead that counts: over an edge a fast sphere leaves what it was pressed against.
         let bends = || {
             let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);

@@ -8,6 +8,7 @@ use super::Exact;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
+use crate::physics::parts::part_ahead;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
@@ -22,7 +23,16 @@ const MOST_AT_ONCE: u64 = 1_000_000;
 const STRETCH: u64 = 20_000_000;
 
 /// Flights shorter than this many times the clock's rounding, over 1 − e, never decay (Zeno).
-const ZENO: f64 = 10.0;
+pub(super) const ZENO: f64 = 10.0;
+
+/// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
+const HOP: f64 = 4.0 * f64::EPSILON;
+
+/// Bounces whose hops are lower than this many radii are summed up in closed form.
+const SMALL_HOP: f64 = 1e-12;
+
+/// Normal velocities below this share of the speed may be those of a sphere that slides.
+const SLOW: f64 = 1e-6;
 
 /// Coarsest time scale at which rounding of the clock is ignored, s.
 const CLOCK: f64 = 1e-3;
@@ -145,8 +155,11 @@ impl Exact {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], model.radii[a]);
                 let at = touch(face, path.x, r);
-                let a_n = at.normal.dot(path.a) + curvature(face, at.part, at.normal, path.v, r);
                 let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
+                // only what may rest asks on which side of a border it will be
+                let slow = v_n.abs() <= SLOW * path.v.length();
+                let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
+                let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
                 Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
             }
             Kind::Pair => {
@@ -169,7 +182,7 @@ impl Exact {
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
-                self.rests.propose(model, &self.flight, self.now, &meeting);
+                self.rests.propose(model, &self.flight, self.now, &meeting, self.now + self.bounces_left(model, &meeting));
                 Ok(())
             }
             Class::Leave | Class::Release => Ok(()),
@@ -183,6 +196,14 @@ impl Exact {
         let tick = self.tick();
         if pressed && meeting.v_n.abs() <= ZENO * -meeting.a_n * tick {
             // the flight would last no longer than the clock can tell
+            return Class::Rest;
+        }
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        if pressed && hop <= HOP * meeting.point.abs().max_element().max(meeting.reach) {
+            // the flight would go no higher than coordinates can tell
+            return Class::Rest;
+        }
+        if pressed && hop <= SMALL_HOP * meeting.reach && self.bounces_left(model, meeting) > 0.0 {
             return Class::Rest;
         }
         let mut law = model.law;
@@ -199,6 +220,18 @@ impl Exact {
             }
         }
         class
+    }
+
+    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
+    /// flights, 2 e |v_n| / (g_n (1 − e)). Only where they change nothing but the height, and where no rest speed ends
+    /// them before.
+    fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
+        let (law, e) = (&model.law, model.law.wall_restitution);
+        let closed_form = meeting.key.0 == Kind::Wall && law.tangential == 1.0 && e < 1.0;
+        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
+            return 0.0;
+        }
+        2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
     }
 
     /// Rounding of the clock, s.

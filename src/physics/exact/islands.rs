@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Exact;
 use super::curved::{Arc, Body, Closed, On};
 use super::flight::Flight;
-use super::impact::Meeting;
-use super::parts::{part_ahead, part_end};
+use super::impact::{Meeting, ZENO};
+use crate::physics::parts::{part_ahead, part_end};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::Part;
@@ -24,8 +24,10 @@ struct Held {
     part: Part,
     /// Whether its `rest` row has been written.
     announced: bool,
-    /// How it came about: the row it gets when its load is known.
-    meeting: Option<f64>,
+    /// v_n when it was proposed, m/s.
+    v_n: f64,
+    /// Until when ever smaller bounces go on in truth, s: the rest is announced then.
+    bounces_until: f64,
 }
 
 /// Spheres connected by resting contacts, until something changes.
@@ -173,7 +175,7 @@ impl Rests {
     }
 
     /// A contact may rest from now on: the island it belongs to will decide.
-    pub(super) fn propose(&mut self, model: &Model, flight: &Flight, now: f64, meeting: &Meeting) {
+    pub(super) fn propose(&mut self, model: &Model, flight: &Flight, now: f64, meeting: &Meeting, bounces_until: f64) {
         let (kind, a, b) = meeting.key;
         let part = match kind {
             Kind::Wall => {
@@ -187,7 +189,7 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, meeting: Some(meeting.v_n) };
+        let held = Held { part, announced: false, v_n: meeting.v_n, bounces_until };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {
@@ -408,7 +410,7 @@ impl Exact {
     /// Settles connected contacts; returns those that are left if some opened, for they may have fallen apart.
     fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
         let (spheres, mut bodies, contacts) = self.island_of(model, keys);
-        let settled = settle(&mut bodies, &closed(model, &contacts));
+        let settled = settle(&mut bodies, &closed(model, &contacts), ZENO * self.tick());
         if !settled.converged {
             return Err(self.not_held(keys));
         }
@@ -432,7 +434,7 @@ impl Exact {
         if settled.curved {
             self.follow(&spheres, Curve::new(model, bodies, contacts, self.now));
         } else {
-            let end = self.parts_end(model, &spheres, &contacts);
+            let end = self.parts_end(model, &spheres, &contacts).min(self.bounces_end(keys));
             self.rests.found(Island { spheres, end, curve: None }, self.now);
         }
         Ok(None)
@@ -467,11 +469,11 @@ impl Exact {
         for (index, &key) in keys.iter().enumerate() {
             let mut meeting = self.seen(model, key);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
-            if settled.fate[index] != Fate::Loaded || held.announced {
+            if settled.fate[index] != Fate::Loaded || held.announced || held.bounces_until > self.now {
                 continue;
             }
             held.announced = true;
-            meeting.v_n = held.meeting.take().unwrap_or(0.0);
+            meeting.v_n = held.v_n;
             let row = meeting.row(self.now, Class::Rest, settled.impulses[index], 0.0);
             log.contacts.push(row);
             log.event(row);
@@ -490,6 +492,12 @@ impl Exact {
             }
         }
         self.now + first
+    }
+
+    /// When the first bounces of these contacts that still go on come to their end, s.
+    fn bounces_end(&self, keys: &[Key]) -> f64 {
+        let ends = keys.iter().filter_map(|key| self.rests.held.get(key)).map(|held| held.bounces_until);
+        ends.filter(|&end| end > self.now).fold(f64::INFINITY, f64::min)
     }
 
     fn not_held(&self, keys: &[Key]) -> Stall {

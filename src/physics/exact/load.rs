@@ -34,7 +34,7 @@ impl Exact {
     fn meet_at_load(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
         if meeting.v_n == 0.0 {
-            self.rests.propose(model, &self.flight, self.now, &meeting);
+            self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
             return Ok(());
         }
         self.meet(model, log, key)

@@ -22,7 +22,6 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::log::Log;
-use super::parts;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::Cells;
 use flight::Flight;

@@ -8,7 +8,10 @@
 use glam::DVec3;
 
 use super::curved::{Body, Closed, geometry};
-use crate::physics::support::{Bodies, Fate, Held, Resting, Surface, hold};
+use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
+
+/// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// An island after both complementarity problems.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,46 +31,95 @@ pub(super) struct Settled {
 }
 
 /// Stops what still approaches, and finds what holds and how the island moves. Changes the velocities.
-pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed]) -> Settled {
+///
+/// `tick` is the clock's rounding, s: a contact that opens so slowly that it would be closed again before the clock can
+/// tell is closed.
+pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
     let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
     let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let mut held = hold(all, &resting, &[]);
-    let mut a = applied.clone();
-    for (place, &body) in held.velocity.bodies.iter().enumerate() {
-        bodies[body].v = held.velocity.vectors[place];
-        a[body] = held.acceleration.vectors[place];
+    let stopped = velocities(all, &resting);
+    for (place, &body) in stopped.bodies.iter().enumerate() {
+        bodies[body].v = stopped.vectors[place];
     }
-    let mut curved = false;
-    for (index, contact) in resting.iter().enumerate() {
-        if held.fate[index] != Fate::Opening && turns(contact, bodies, &a, &held) {
-            match held.fate[index] {
-                Fate::Loaded => curved = true,
-                // unpressed, it lets go: the next approach is a contact like any other
-                _ => held.fate[index] = Fate::Opening,
-            }
-        }
+    let slack = |body: usize| tick * applied[body].length() + ROUNDING * velocity[body].length();
+    let opens = |contact: &Resting| {
+        let slack = slack(contact.a) + contact.b.map_or(0.0, slack);
+        relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
+    };
+    let closed: Vec<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
+    let touching: Vec<Resting> = closed.iter().map(|&index| resting[index]).collect();
+    let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &[]);
+    let mut settled = Settled {
+        a: applied.clone(),
+        impulses: stopped.multipliers.clone(),
+        forces: vec![0.0; contacts.len()],
+        fate: vec![Fate::Opening; contacts.len()],
+        curved: false,
+        converged: stopped.converged() && held.converged(),
+    };
+    for (place, &body) in held.bodies.iter().enumerate() {
+        settled.a[body] = held.vectors[place];
     }
-    let converged = held.converged();
-    let (impulses, forces) = (held.velocity.multipliers, held.acceleration.multipliers);
-    Settled { a, impulses, forces, fate: held.fate, curved, converged }
+    for (place, &index) in closed.iter().enumerate() {
+        settled.forces[index] = held.multipliers[place];
+        settled.judge(index, &touching[place], bodies);
+    }
+    settled.still(bodies, &inverse_mass, &resting);
+    settled
 }
 
-/// Whether the normal of a contact turns: its bodies move, or begin to move, past each other.
-fn turns(contact: &Resting, bodies: &[Body], a: &[DVec3], held: &Held) -> bool {
-    let across = |u: &dyn Fn(usize) -> DVec3, rounding: &[f64]| {
-        let relative = u(contact.a) - contact.b.map_or(DVec3::ZERO, u);
-        let noise = rounding[contact.a] + contact.b.map_or(0.0, |b| rounding[b]);
-        let tangential = relative - contact.normal * contact.normal.dot(relative);
-        let turning = match contact.surface {
-            Surface::Face => DVec3::ZERO,
-            Surface::Edge { along, .. } => tangential - along * along.dot(tangential),
-            Surface::Round { .. } => tangential,
+/// u of the first body less u of the second.
+fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
+    u(contact.a) - contact.b.map_or(DVec3::ZERO, u)
+}
+
+impl Settled {
+    /// What becomes of a contact that is closed.
+    fn judge(&mut self, index: usize, contact: &Resting, bodies: &[Body]) {
+        let v = relative(contact, &|body| bodies[body].v);
+        let a = relative(contact, &|body| self.a[body]);
+        let size = |u: &dyn Fn(usize) -> DVec3| u(contact.a).length() + contact.b.map_or(0.0, |b| u(b).length());
+        let noise = ROUNDING * (size(&|body| bodies[body].applied) + size(&|body| self.a[body]));
+        let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
+        let turning = turning(contact, v).length() > ROUNDING * size(&|body| bodies[body].v)
+            || turning(contact, a).length() > noise;
+        self.fate[index] = match self.forces[index] > 0.0 {
+            true => Fate::Loaded,
+            // unpressed and turning, it lets go: the next approach is a contact like any other
+            false if turning || opening > noise => Fate::Opening,
+            false => Fate::Idle,
         };
-        turning.length() > noise
-    };
-    // every body is named by a contact, so the solutions list all of them, in order
-    across(&|body| bodies[body].v, &held.velocity.rounding) || across(&|body| a[body], &held.acceleration.rounding)
+        self.curved |= turning && self.fate[index] == Fate::Loaded;
+    }
+
+    /// Takes what rounding left of the normal velocities of contacts that hold.
+    fn still(&self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting]) {
+        let rows: Vec<Row> = (resting.iter().zip(&self.fate))
+            .filter(|(_, fate)| **fate == Fate::Loaded)
+            .map(|(contact, _)| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 })
+            .collect();
+        let off = rows.iter().any(|row| {
+            let v = bodies[row.a].v - row.b.map_or(DVec3::ZERO, |b| bodies[b].v);
+            row.normal.dot(v) != 0.0
+        });
+        if off {
+            let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+            let v = bind(inverse_mass, &velocity, &rows).0;
+            bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+        }
+    }
+}
+
+/// The part of a relative vector that turns the normal of a contact.
+fn turning(contact: &Resting, u: DVec3) -> DVec3 {
+    let tangential = u - contact.normal * contact.normal.dot(u);
+    match contact.surface {
+        Surface::Face => DVec3::ZERO,
+        Surface::Edge { along, .. } => tangential - along * along.dot(tangential),
+        Surface::Round { .. } => tangential,
+    }
 }
