@@ -368,21 +368,28 @@ impl Search<'_> {
             t += step;
             at = touch(self.face, self.path.at(t), self.r);
         }
-        (at.gap <= self.rounding(t) && self.approaching(t, &at)).then_some(t)
+        if at.gap > self.rounding(t) {
+            return None;
+        }
+        self.approached(t, &at)
     }
 
-    /// v_n < 0; or v_n = 0 (at a later time: to rounding) and about to become negative: rest, and the apex of what
-    /// overlaps.
-    fn approaching(&self, t: f64, at: &Touch) -> bool {
+    /// When a touch at `t` is approached: at once if v_n < 0. If v_n = 0 to rounding and about to become negative, which
+    /// is rest and the apex of what overlaps, then too, but never while the handler's expression says that v_n > 0: the
+    /// time that such a v_n takes to come back is waited for.
+    fn approached(&self, t: f64, at: &Touch) -> Option<f64> {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
-let noise = if t > 0.0 { 1e-13 * (self.path.v.length() + v.length()) } else { 0.0 };
+        if closing < 0.0 {
+            return Some(t);
+        }
+        if closing > 1e-13 * (self.path.v.length() + v.length()) {
+            return None;
+        }
         // On a border it is the part ahead that counts: over an edge a fast sphere leaves what it was pressed against.
-        let bends = || {
-            let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);
-            at.normal.dot(self.path.a) + curvature(self.face, ahead, at.normal, v, self.r)
-        };
-        closing < 0.0 || closing <= noise && bends() < 0.0
+        let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);
+        let bends = at.normal.dot(self.path.a) + curvature(self.face, ahead, at.normal, v, self.r);
+        (bends < 0.0).then(|| t - 2.0 * closing / bends)
     }
 
     /// What rounding may leave of a gap that is meant to be 0, m: some hundred ulp of the coordinates and the path.

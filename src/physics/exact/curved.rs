@@ -41,6 +41,10 @@ const OVERSHOOT: f64 = 1e-10;
 /// How far beyond its border a contact belongs to the next part, in radii: more than rounding, less than matters.
 const BORDER: f64 = 1e-12;
 
+/// How much an idle contact may open or close, in units of the applied acceleration, before its island is settled anew:
+/// more than rounding, and less than moves anything by 1e-14 m during an arc.
+const IDLE: f64 = 1e-11;
+
 /// A body of the island.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Body {
@@ -177,7 +181,7 @@ impl Arc {
 
     /// Ends the arc where a contact changes first, by bisection, [`OVERSHOOT`] of it late.
     fn cut_short(&mut self, motion: &Motion) {
-        let before = motion.rooms(&self.start.bodies);
+        let before = motion.marks(&self.start.bodies);
         let margin = |time: f64| motion.margin(&self.at(time), &before);
         let looks = LOOKS.map(|share| share * self.span);
         let Some(failed) = looks.iter().position(|&time| margin(time) < 0.0) else { return };
@@ -254,6 +258,8 @@ fn cube_root(y: f64) -> f64 {
 /// The differential equation of an island while the contacts that carry a load now go on holding.
 struct Motion<'a> {
     holding: Vec<Closed<'a>>,
+    /// Contacts that stay closed without carrying anything.
+    idle: Vec<Closed<'a>>,
     inverse_mass: Vec<f64>,
 }
 
@@ -265,20 +271,15 @@ impl<'a> Motion<'a> {
         let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
         let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
         let forces = accelerations(all, &resting, &[]).multipliers;
-        let holding =
-            contacts.iter().zip(forces).filter(|(_, force)| *force > 0.0).map(|(contact, _)| *contact).collect();
-        Motion { holding, inverse_mass }
+        let loaded = contacts.iter().zip(forces).map(|(contact, force)| (*contact, force > 0.0));
+        let (holding, idle): (Vec<_>, Vec<_>) = loaded.partition(|(_, loaded)| *loaded);
+        let only = |list: Vec<(Closed<'a>, bool)>| list.into_iter().map(|(contact, _)| contact).collect();
+        Motion { holding: only(holding), idle: only(idle), inverse_mass }
     }
 
     /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
     fn rows(&self, bodies: &[Body], offset: impl Fn(f64, f64) -> f64) -> Vec<Row> {
-        let row = |&contact: &Closed| {
-            let (resting, gap) = geometry(bodies, contact);
-            let relative = bodies[resting.a].v - resting.b.map_or(DVec3::ZERO, |b| bodies[b].v);
-            let curvature = resting.surface.curvature_term(resting.normal, relative);
-            Row { a: resting.a, b: resting.b, normal: resting.normal, offset: offset(gap, curvature) }
-        };
-        self.holding.iter().map(row).collect()
+        self.holding.iter().map(|&contact| row(bodies, contact, &offset)).collect()
     }
 
     /// Accelerations, m/s², and forces of the holding contacts, N.
@@ -311,6 +312,11 @@ impl<'a> Motion<'a> {
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 
+    /// What later margins are measured from.
+    fn marks(&self, bodies: &[Body]) -> Marks {
+        Marks { rooms: self.rooms(bodies), openings: self.openings(bodies, &self.accelerations(bodies).0) }
+    }
+
     /// How far each holding contact is from where another part of its wall takes over, in radii; ∞ for pairs.
     fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
         let of = |contact: &Closed| match contact.on {
@@ -320,17 +326,48 @@ impl<'a> Motion<'a> {
         self.holding.iter().map(of).collect()
     }
 
-    /// The least that is left to any holding contact: load as an acceleration in units of what is applied, or room in
-    /// radii. What began at the border or beyond (`before`) counts only if it has gone on outwards, beyond rounding.
-    fn margin(&self, bodies: &[Body], before: &[f64]) -> f64 {
-        let forces = self.accelerations(bodies).1;
-        let pull = bodies.iter().map(|body| body.applied.length()).fold(f64::MIN_POSITIVE, f64::max);
-        let loads =
-            self.holding.iter().zip(forces).map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull);
-        let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
-        let rooms = self.rooms(bodies).into_iter().zip(before).map(outwards);
-        loads.chain(rooms).fold(f64::INFINITY, f64::min)
+    /// |J a + k| of the idle contacts, in units of the applied acceleration.
+    fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
+        let of = |&contact: &Closed| {
+            let row = row(bodies, contact, &|_, curvature| curvature);
+            let relative = a[row.a] - row.b.map_or(DVec3::ZERO, |b| a[b]);
+            (row.normal.dot(relative) + row.offset).abs() / pull(bodies)
+        };
+        self.idle.iter().map(of).collect()
     }
+
+    /// The least that is left before something changes: load as an acceleration in units of what is applied; room in
+    /// radii, where what began at the border or beyond counts only if it has gone on outwards, beyond rounding; what an
+    /// idle contact may still open or close.
+    fn margin(&self, bodies: &[Body], before: &Marks) -> f64 {
+        let (a, forces) = self.accelerations(bodies);
+        let loads = self.holding.iter().zip(forces);
+        let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
+        let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
+        let rooms = self.rooms(bodies).into_iter().zip(&before.rooms).map(outwards);
+        let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
+        let idle = openings.map(|(opening, before)| IDLE + before - opening);
+        loads.chain(rooms).chain(idle).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Rooms and openings at the beginning of an arc.
+struct Marks {
+    rooms: Vec<f64>,
+    openings: Vec<f64>,
+}
+
+/// Largest applied acceleration, m/s²: the unit of loads.
+fn pull(bodies: &[Body]) -> f64 {
+    bodies.iter().map(|body| body.applied.length()).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// A contact as a row; its offset is chosen from (gap in m, k in m/s²).
+fn row(bodies: &[Body], contact: Closed, offset: &impl Fn(f64, f64) -> f64) -> Row {
+    let (resting, gap) = geometry(bodies, contact);
+    let relative = bodies[resting.a].v - resting.b.map_or(DVec3::ZERO, |b| bodies[b].v);
+    let curvature = resting.surface.curvature_term(resting.normal, relative);
+    Row { a: resting.a, b: resting.b, normal: resting.normal, offset: offset(gap, curvature) }
 }
 
 /// The start moved on by h Σ wᵢ kᵢ.

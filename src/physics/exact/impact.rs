@@ -8,8 +8,8 @@ use super::Exact;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
-use crate::physics::parts::part_ahead;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
+use crate::physics::parts::part_ahead;
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
@@ -182,10 +182,21 @@ impl Exact {
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
-                self.rests.propose(model, &self.flight, self.now, &meeting, self.now + self.bounces_left(model, &meeting));
+                self.rests.propose(
+                    model,
+                    &self.flight,
+                    self.now,
+                    &meeting,
+                    self.now + self.bounces_left(model, &meeting),
+                );
                 Ok(())
             }
-            Class::Leave | Class::Release => Ok(()),
+            Class::Leave | Class::Release => {
+                if meeting.a_n >= 0.0 {
+                    self.part(model, key, f64::EPSILON * self.flight.lines[key.1].v.length());
+                }
+                Ok(())
+            }
         }
     }
 
@@ -259,7 +270,7 @@ impl Exact {
                 impulse
             }
         };
-        self.part(model, meeting.key);
+        self.part(model, meeting.key, 0.0);
         let row = meeting.row(self.now, Class::Collide, impulse, target);
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
         log.contacts.push(row);
@@ -282,17 +293,19 @@ impl Exact {
         self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
 
-    /// Sees to it that a contact that is over does not approach by a rounding: the predictor would find it again and
-    /// again.
-    pub(super) fn part(&mut self, model: &Model, key: Key) {
-        let a = key.1;
-        let mut nudge = f64::EPSILON * self.flight.lines[a].v.length().max(f64::MIN_POSITIVE);
+    /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
+    /// again and again. The body that is freer gives way.
+    pub(super) fn part(&mut self, model: &Model, key: Key, least: f64) {
+        let (kind, a, b) = key;
+        let yields = kind == Kind::Pair && self.rests.count(b) < self.rests.count(a);
+        let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
+        let mut nudge = f64::EPSILON * self.flight.lines[i].v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
             let meeting = self.seen(model, key);
-            if meeting.v_n >= 0.0 || meeting.v_n.is_nan() {
+            if meeting.v_n >= least || meeting.v_n.is_nan() {
                 return;
             }
-            self.push(a, meeting.normal * nudge.max(-meeting.v_n));
+            self.push(i, meeting.normal * (sign * nudge.max(least - meeting.v_n)));
             nudge *= 2.0;
         }
     }

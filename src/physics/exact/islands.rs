@@ -6,11 +6,11 @@ use super::Exact;
 use super::curved::{Arc, Body, Closed, On};
 use super::flight::Flight;
 use super::impact::{Meeting, ZENO};
-use crate::physics::parts::{part_ahead, part_end};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::Part;
 use crate::physics::log::Log;
+use crate::physics::parts::{part_ahead, part_end};
 use crate::physics::support::{Fate, islands};
 use crate::physics::{Class, Kind, Model, Stall, State};
 
@@ -140,6 +140,11 @@ impl Rests {
     #[inline]
     pub(super) fn holds(&self, key: Key) -> bool {
         !self.of.is_empty() && !self.of[key.1].is_empty() && self.held.contains_key(&key)
+    }
+
+    /// How many contacts of sphere `i` rest.
+    pub(super) fn count(&self, i: usize) -> usize {
+        self.of.get(i).map_or(0, Vec::len)
     }
 
     /// Whether islands wait to be settled.
@@ -426,7 +431,7 @@ impl Exact {
         let (opening, kept) = (pick(true), pick(false));
         for &key in &opening {
             self.release(model, log, key);
-            self.part(model, key);
+            self.part(model, key, 0.0);
         }
         if !opening.is_empty() {
             return Ok(Some(kept));

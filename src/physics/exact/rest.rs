@@ -13,6 +13,10 @@ use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations
 /// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
+/// A contact of a curved island that opens by no more than this share of the accelerations is looked at again after
+/// every step.
+const BARELY: f64 = 1e-3;
+
 /// An island after both complementarity problems.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Settled {
@@ -66,7 +70,11 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     }
     for (place, &index) in closed.iter().enumerate() {
         settled.forces[index] = held.multipliers[place];
-        settled.judge(index, &touching[place], bodies);
+    }
+    let turns = |contact: &Resting| settled.turns(contact, bodies);
+    settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && turns(&resting[index]));
+    for &index in &closed {
+        settled.fate[index] = settled.judged(index, &resting[index], bodies);
     }
     settled.still(bodies, &inverse_mass, &resting);
     settled
@@ -79,21 +87,34 @@ fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
 
 impl Settled {
     /// What becomes of a contact that is closed.
-    fn judge(&mut self, index: usize, contact: &Resting, bodies: &[Body]) {
+    fn judged(&self, index: usize, contact: &Resting, bodies: &[Body]) -> Fate {
+        if self.forces[index] > 0.0 {
+            return Fate::Loaded;
+        }
         let v = relative(contact, &|body| bodies[body].v);
         let a = relative(contact, &|body| self.a[body]);
-        let size = |u: &dyn Fn(usize) -> DVec3| u(contact.a).length() + contact.b.map_or(0.0, |b| u(b).length());
-        let noise = ROUNDING * (size(&|body| bodies[body].applied) + size(&|body| self.a[body]));
         let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
-        let turning = turning(contact, v).length() > ROUNDING * size(&|body| bodies[body].v)
-            || turning(contact, a).length() > noise;
-        self.fate[index] = match self.forces[index] > 0.0 {
-            true => Fate::Loaded,
-            // unpressed and turning, it lets go: the next approach is a contact like any other
-            false if turning || opening > noise => Fate::Opening,
-            false => Fate::Idle,
-        };
-        self.curved |= turning && self.fate[index] == Fate::Loaded;
+        let noise = self.noise(contact, bodies);
+        if self.curved && opening <= BARELY / ROUNDING * noise {
+            // the chord that stands for a curved motion could press it: it stays until the next step looks again
+            return Fate::Idle;
+        }
+        // unpressed and turning, it lets go: the next approach is a contact like any other
+        if opening > noise || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
+    }
+
+    /// Size of the rounding of relative accelerations, m/s².
+    fn noise(&self, contact: &Resting, bodies: &[Body]) -> f64 {
+        let of = |body: usize| bodies[body].applied.length() + self.a[body].length();
+        ROUNDING * (of(contact.a) + contact.b.map_or(0.0, of))
+    }
+
+    /// Whether the normal of a contact turns: its bodies move, or begin to move, past each other.
+    fn turns(&self, contact: &Resting, bodies: &[Body]) -> bool {
+        let speed = |body: usize| bodies[body].v.length();
+        let noise = ROUNDING * (speed(contact.a) + contact.b.map_or(0.0, speed));
+        turning(contact, relative(contact, &|body| bodies[body].v)).length() > noise
+            || turning(contact, relative(contact, &|body| self.a[body])).length() > self.noise(contact, bodies)
     }
 
     /// Takes what rounding left of the normal velocities of contacts that hold.
