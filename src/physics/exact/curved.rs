@@ -112,8 +112,9 @@ impl Arc {
         Arc::of(self.at(self.length), contacts, Some(self.next))
     }
 
-    fn of(bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
+    fn of(mut bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
         let motion = Motion::of(&bodies, contacts);
+        motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
         let scale = start.time_scale();
         let mut span = span.unwrap_or(FIRST * scale).min(LONGEST * scale);
@@ -258,6 +259,8 @@ fn cube_root(y: f64) -> f64 {
 /// The differential equation of an island while the contacts that carry a load now go on holding.
 struct Motion<'a> {
     holding: Vec<Closed<'a>>,
+    /// Their gaps, m: what rounding, or the scene, has left of 0. They are kept, so that nothing jumps.
+    gaps: Vec<f64>,
     /// Contacts that stay closed without carrying anything.
     idle: Vec<Closed<'a>>,
     inverse_mass: Vec<f64>,
@@ -274,7 +277,9 @@ impl<'a> Motion<'a> {
         let loaded = contacts.iter().zip(forces).map(|(contact, force)| (*contact, force > 0.0));
         let (holding, idle): (Vec<_>, Vec<_>) = loaded.partition(|(_, loaded)| *loaded);
         let only = |list: Vec<(Closed<'a>, bool)>| list.into_iter().map(|(contact, _)| contact).collect();
-        Motion { holding: only(holding), idle: only(idle), inverse_mass }
+        let holding: Vec<Closed> = only(holding);
+        let gaps = holding.iter().map(|&contact| geometry(bodies, contact).1).collect();
+        Motion { holding, gaps, idle: only(idle), inverse_mass }
     }
 
     /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
@@ -301,12 +306,18 @@ impl<'a> Motion<'a> {
         end
     }
 
-    /// Puts the bodies back on the holding contacts by the least change in the metric of the masses: gap = 0, then
+    /// Puts the bodies back on the holding contacts by the least change in the metric of the masses: gaps as they were,
     /// J v = 0. The gap left by a step is so small that one step of Newton's method closes it.
     fn restore(&self, bodies: &mut [Body]) {
         let still = vec![DVec3::ZERO; bodies.len()];
-        let shift = bind(&self.inverse_mass, &still, &self.rows(bodies, |gap, _| gap)).0;
+        let mut rows = self.rows(bodies, |gap, _| gap);
+        rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
+        let shift = bind(&self.inverse_mass, &still, &rows).0;
         bodies.iter_mut().zip(shift).for_each(|(body, shift)| body.x += shift);
+        self.restore_velocities(bodies);
+    }
+
+    fn restore_velocities(&self, bodies: &mut [Body]) {
         let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
         let v = bind(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0)).0;
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
