@@ -26,7 +26,7 @@ const STRETCH: u64 = 20_000_000;
 pub(super) const ZENO: f64 = 10.0;
 
 /// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
-const HOP: f64 = 4.0 * f64::EPSILON;
+pub(super) const HOP: f64 = 4.0 * f64::EPSILON;
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 const SMALL_HOP: f64 = 1e-12;
