@@ -26,7 +26,7 @@ const STRETCH: u64 = 20_000_000;
 pub(super) const ZENO: f64 = 10.0;
 
 /// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
-const HOP: f64 = 4.0 * f64::EPSILON;
+pub(super) const HOP: f64 = 4.0 * f64::EPSILON;
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 const SMALL_HOP: f64 = 1e-12;
@@ -140,9 +140,9 @@ impl Exact {
     /// The bodies of a contact now, their lines brought to the present.
     pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
         let (kind, a, b) = key;
-        self.bring(model, a);
+        self.bring(a);
         if kind == Kind::Pair {
-            self.bring(model, b);
+            self.bring(b);
         }
         self.seen(model, key)
     }
@@ -251,7 +251,7 @@ impl Exact {
         t.next_up() - t
     }
 
-    /// Effective rest speed of a contact between a sphere and anything, pressed at `a_n` (m/s²), m/s.
+    /// An impact: both bodies get their impulse, rests that it breaks end, and what comes next is predicted.
     pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Result<(), Stall> {
         let (kind, a, b) = meeting.key;
         let target = separation_speed(meeting.v_n, Class::Collide, kind, &model.law);
@@ -264,9 +264,14 @@ impl Exact {
                 change * model.masses[a]
             }
             Kind::Pair => {
-                let impulse = change / (model.inverse_masses[a] + model.inverse_masses[b]);
-                self.push(a, meeting.normal * (impulse * model.inverse_masses[a]));
-                self.push(b, meeting.normal * (-impulse * model.inverse_masses[b]));
+                let (one, two) = (self.flight.lines[a], self.flight.lines[b]);
+                let (arm, w) = (one.x - two.x, one.v - two.v);
+                // along the arm by its actual length: a unit normal's rounding would let the energy creep upwards
+                let share = model.inverse_masses[a] + model.inverse_masses[b];
+                let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
+                self.push(a, push * model.inverse_masses[a]);
+                self.push(b, push * -model.inverse_masses[b]);
+                let impulse = change / share;
                 impulse
             }
         };

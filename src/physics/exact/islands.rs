@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Exact;
-use super::curved::{Body, Closed, Ended, On, advance, step};
+use super::curved::{Arc, Body, Closed, On};
 use super::flight::Flight;
 use super::impact::{Meeting, ZENO};
 use super::rest::{Settled, settle};
@@ -40,13 +40,14 @@ struct Island {
     curve: Option<Curve>,
 }
 
-/// A step of a curved motion, for which a chord parabola stands.
+/// A curved motion, and the chord parabola that stands for it now.
 #[derive(Debug, Clone)]
 struct Curve {
-    /// The spheres at its beginning.
-    start: Vec<Body>,
+    arc: Arc,
     contacts: Vec<Contact>,
-    /// When it began, s; infinite once the spheres have been brought off it.
+    /// Where on the arc the chord begins, s.
+    offset: f64,
+    /// When the chord began, s; infinite once the spheres have been brought off it.
     from: f64,
     /// Its length, s.
     length: f64,
@@ -82,24 +83,33 @@ fn closed<'a>(model: &'a Model, contacts: &[Contact]) -> Vec<Closed<'a>> {
 }
 
 impl Curve {
-    /// The next step, from the spheres as they are now; and where it leads.
-    fn next(model: &Model, start: Vec<Body>, contacts: Vec<Contact>, now: f64) -> (Curve, Vec<Body>) {
-        let all = closed(model, &contacts);
-        let h = step(&start, &all);
-        let mut end = start.clone();
-        let (length, changes) = match advance(&mut end, &all, h) {
-            Ended::Kept => (h, false),
-            Ended::Changed(time) => (time, true),
-        };
-        (Curve { start, contacts, from: now, length, changes }, end)
+    /// The motion of bodies from now on.
+    fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<Contact>, now: f64) -> Curve {
+        let arc = Arc::new(bodies, &closed(model, &contacts));
+        Curve { arc, contacts, offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
-    /// The spheres `time` (s) after the step's beginning, by the same step, shortened.
-    fn at(&self, model: &Model, time: f64) -> Vec<Body> {
-        let mut bodies = self.start.clone();
-        // the end is known to change; before, nothing does
-        advance(&mut bodies, &closed(model, &self.contacts), time.min(self.length));
-        bodies
+    /// The next chord, on this arc or on the one after it.
+    fn next(self, model: &Model, now: f64) -> Curve {
+        let offset = self.offset + self.length;
+        if offset < self.arc.length {
+            return Curve { offset, from: now, ..self }.chord();
+        }
+        let arc = self.arc.go_on(&closed(model, &self.contacts));
+        Curve { arc, offset: 0.0, from: now, ..self }.chord()
+    }
+
+    /// Lays a chord from `offset` on.
+    fn chord(mut self) -> Curve {
+        let left = self.arc.length - self.offset;
+        self.length = self.arc.chord(self.offset);
+        self.changes = self.arc.changes && self.length >= left;
+        self
+    }
+
+    /// The spheres `time` (s) after the chord's beginning.
+    fn at(&self, time: f64) -> Vec<Body> {
+        self.arc.at(self.offset + time.min(self.length))
     }
 }
 
@@ -256,13 +266,13 @@ impl Rests {
     }
 
     /// Puts the spheres of curved islands where their arcs are, in a state read at or after the last event.
-    pub(super) fn bend(&self, model: &Model, state: &mut State) {
+    pub(super) fn bend(&self, state: &mut State) {
         for island in self.islands.iter().flatten() {
             let Some(curve) = &island.curve else { continue };
             if curve.from > state.t {
                 continue;
             }
-            let bodies = curve.at(model, state.t - curve.from);
+            let bodies = curve.at(state.t - curve.from);
             for (body, &i) in bodies.iter().zip(&island.spheres) {
                 (state.x[i], state.v[i]) = (body.x, body.v);
             }
@@ -272,14 +282,14 @@ impl Rests {
 
 impl Exact {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
-    pub(super) fn bring(&mut self, model: &Model, i: usize) {
+    pub(super) fn bring(&mut self, i: usize) {
         let now = self.now;
         let island = self.rests.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now));
         let Some(Island { spheres, curve: Some(curve), .. }) = island else {
             self.flight.bring(i, now);
             return;
         };
-        let bodies = curve.at(model, now - curve.from);
+        let bodies = curve.at(now - curve.from);
         // the lines are off the chord now: it must not be followed, nor the step be read, any longer
         curve.from = f64::INFINITY;
         for (body, &sphere) in bodies.iter().zip(spheres.iter()) {
@@ -320,12 +330,11 @@ impl Exact {
         let Some(island) = self.rests.island(leader) else { return };
         let spheres = island.spheres.clone();
         if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
-            let (next, end) = Curve::next(model, curve.at(model, curve.length), curve.contacts, now);
-            self.follow(&spheres, next, &end);
+            self.follow(&spheres, curve.next(model, now));
             return self.moved(model, &spheres);
         }
         for &i in &spheres {
-            self.bring(model, i);
+            self.bring(i);
         }
         for &i in &spheres {
             let path = self.flight.path(i, now);
@@ -339,10 +348,10 @@ impl Exact {
         self.rests.dirty.push(leader);
     }
 
-    /// Lays chord parabolas along a step that leads to `end`, and gives it to the spheres' island.
-    fn follow(&mut self, spheres: &[usize], curve: Curve, end: &[Body]) {
+    /// Sends the spheres along a chord, and gives it to their island.
+    fn follow(&mut self, spheres: &[usize], curve: Curve) {
         let h = curve.length;
-        for ((&i, start), end) in spheres.iter().zip(&curve.start).zip(end) {
+        for ((&i, start), end) in spheres.iter().zip(curve.at(0.0)).zip(curve.at(h)) {
             self.flight.rewrite(i, self.now, start.x, start.v);
             if h > 0.0 {
                 self.flight.accelerate(i, (end.x - start.x - start.v * h) * (2.0 / (h * h)));
@@ -372,7 +381,7 @@ impl Exact {
     pub(super) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
         let spheres = self.rests.take_dirty();
         for &i in &spheres {
-            self.bring(model, i);
+            self.bring(i);
         }
         self.rests.dirty.clear();
         for &i in &spheres {
@@ -428,9 +437,7 @@ impl Exact {
             return Ok(Some(kept));
         }
         if settled.curved {
-            let (mut curve, end) = Curve::next(model, bodies, contacts, self.now);
-            curve.changes |= settled.fate.contains(&Fate::Idle);
-            self.follow(&spheres, curve, &end);
+            self.follow(&spheres, Curve::new(model, bodies, contacts, self.now));
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.bounces_end(keys));
             self.rests.found(Island { spheres, end, curve: None }, self.now);

@@ -139,10 +139,10 @@ impl Engine for Exact {
         self.frame.step
     }
 
-    fn at(&self, model: &Model, t: f64) -> State {
+    fn at(&self, _: &Model, t: f64) -> State {
         let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
         let mut state = self.flight.then(t);
-        self.rests.bend(model, &mut state);
+        self.rests.bend(&mut state);
         state
     }
 

@@ -8,6 +8,7 @@
 use glam::DVec3;
 
 use super::curved::{Body, Closed, geometry};
+use super::impact::HOP;
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
 
 /// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
@@ -36,8 +37,8 @@ pub(super) struct Settled {
 
 /// Stops what still approaches, and finds what holds and how the island moves. Changes the velocities.
 ///
-/// `tick` is the clock's rounding, s: a contact that opens so slowly that it would be closed again before the clock can
-/// tell is closed.
+/// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
+/// clock or the coordinates can tell is closed.
 pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
     let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
@@ -48,7 +49,10 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     for (place, &body) in stopped.bodies.iter().enumerate() {
         bodies[body].v = stopped.vectors[place];
     }
-    let slack = |body: usize| tick * applied[body].length() + ROUNDING * velocity[body].length();
+    let slack = |body: usize| {
+        let (pull, size) = (applied[body].length(), bodies[body].x.abs().max_element() + bodies[body].r);
+        tick * pull + ROUNDING * velocity[body].length() + (2.0 * pull * HOP * size).sqrt()
+    };
     let opens = |contact: &Resting| {
         let slack = slack(contact.a) + contact.b.map_or(0.0, slack);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
