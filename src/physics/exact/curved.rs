@@ -45,8 +45,8 @@ const BORDER: f64 = 1e-12;
 /// rounding, and less than moves anything by 1e-14 m during an arc.
 const IDLE: f64 = 1e-11;
 
-/// How fast it may open: beyond what the settling takes for closed (a thousandth), so that it is let go then.
-const AJAR: f64 = 2e-3;
+/// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
+const AJAR: f64 = 1e-6;
 
 /// A body of the island.
 #[derive(Debug, Clone, Copy, PartialEq)]
