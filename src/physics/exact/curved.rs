@@ -41,9 +41,12 @@ const OVERSHOOT: f64 = 1e-10;
 /// How far beyond its border a contact belongs to the next part, in radii: more than rounding, less than matters.
 const BORDER: f64 = 1e-12;
 
-/// How much an idle contact may open or close, in units of the applied acceleration, before its island is settled anew:
-/// more than rounding, and less than moves anything by 1e-14 m during an arc.
+/// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
+/// rounding, and less than moves anything by 1e-14 m during an arc.
 const IDLE: f64 = 1e-11;
+
+/// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
+const AJAR: f64 = 1e-6;
 
 /// A body of the island.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -337,12 +340,12 @@ impl<'a> Motion<'a> {
         self.holding.iter().map(of).collect()
     }
 
-    /// |J a + k| of the idle contacts, in units of the applied acceleration.
+    /// J a + k of the idle contacts, in units of the applied acceleration.
     fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
         let of = |&contact: &Closed| {
             let row = row(bodies, contact, &|_, curvature| curvature);
             let relative = a[row.a] - row.b.map_or(DVec3::ZERO, |b| a[b]);
-            (row.normal.dot(relative) + row.offset).abs() / pull(bodies)
+            (row.normal.dot(relative) + row.offset) / pull(bodies)
         };
         self.idle.iter().map(of).collect()
     }
@@ -357,7 +360,10 @@ impl<'a> Motion<'a> {
         let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
         let rooms = self.rooms(bodies).into_iter().zip(&before.rooms).map(outwards);
         let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
-        let idle = openings.map(|(opening, before)| IDLE + before - opening);
+        let idle = openings.map(|(opening, before)| {
+            let closing = IDLE + opening - before.min(0.0);
+            closing.min(AJAR + before.max(0.0) - opening)
+        });
         loads.chain(rooms).chain(idle).fold(f64::INFINITY, f64::min)
     }
 }
