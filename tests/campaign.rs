@@ -170,7 +170,7 @@ fn check(seed: u64, met: &mut Met) -> Result<(), String> {
     let mut least = run.initial_energy();
     for frame in 0..20 {
         let until = 0.5 * f64::from(frame + 1);
-        match run.advance(Until::Time(until), 200_000) {
+        match run.advance(Until::Time(until), 2_000_000) {
             Progress::Reached => {}
             Progress::Yielded => return fail(&run, format!("hangs: {:?}", run.tallies())),
             Progress::Stalled(stall) => return fail(&run, format!("stalls: {}", stall.reason)),

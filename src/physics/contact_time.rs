@@ -229,13 +229,25 @@ fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
         return Some(0.0);
     }
     let (falls, count) = quartic_falls(&c, before);
-    let t = falls[..count].first().copied()?;
-    // one Newton step on the distance itself, whose rounding is far below that of its square's polynomial
+    falls[..count].iter().find_map(|&t| approached_pair(path, reach, t)).filter(|&t| t < before)
+}
+
+/// When a candidate is approached: as [`Search::approached`] for walls. One Newton step on the distance itself, whose
+/// rounding is far below that of its square's polynomial.
+fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     let (x, v) = (path.at(t), path.velocity(t));
     let closing = pair_normal_velocity(x, v);
-    let polished = if t > 0.0 && closing < 0.0 { (t - (x.length() - reach) / closing).max(0.0) } else { t };
-    let moved = (polished - t).abs() <= 1e-6 * t;
-    Some(if moved { polished } else { t }).filter(|&t| t < before)
+    if closing < 0.0 {
+        let polished = t - (x.length() - reach) / closing;
+        return Some(if (polished - t).abs() <= 1e-6 * t { polished } else { t });
+    }
+    if closing > 1e-13 * (path.v.length() + v.length()) {
+        return None;
+    }
+    let normal = x / x.length();
+    let across = v - normal * closing;
+    let bends = normal.dot(path.a) + across.length_squared() / x.length();
+    (bends < 0.0).then(|| t - 2.0 * closing / bends)
 }
 
 /// When a sphere of radius `r` (m) next meets a wall while approaching it, s from now: face, edges and corners, from

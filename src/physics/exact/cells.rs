@@ -133,11 +133,11 @@ impl Cells {
     pub(super) fn crossing(&self, i: usize, path: &Path) -> (f64, Way) {
         let cube = self.cubes[i];
         let mut first = (f64::INFINITY, Way::default());
-        for axis in 0..3 {
-            let low = self.origin[axis] + f64::from(cube[axis]) * self.edge;
+        for (axis, &index) in cube.iter().enumerate() {
+            let low = self.origin[axis] + f64::from(index) * self.edge;
             let (x, v, a) = (path.x[axis] - low, path.v[axis], 0.5 * path.a[axis]);
             for sign in [1_i8, -1] {
-                if cube[axis] == OUTERMOST * i32::from(sign) {
+                if index == OUTERMOST * i32::from(sign) {
                     continue;
                 }
                 let left = if sign > 0 { self.edge - x } else { x };

@@ -271,8 +271,7 @@ impl Exact {
                 let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
                 self.push(a, push * model.inverse_masses[a]);
                 self.push(b, push * -model.inverse_masses[b]);
-                let impulse = change / share;
-                impulse
+                change / share
             }
         };
         self.part(model, meeting.key, 0.0);
