@@ -1,6 +1,5 @@
 //! What rests stays at rest, and what slides follows its closed form, in the event-driven method.
 
-#[allow(dead_code)]
 mod support;
 
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};

@@ -1,6 +1,5 @@
 //! What the event-driven method must get right: cited numbers, closed forms, conservation, counts, symmetry.
 
-#[allow(dead_code)]
 mod support;
 
 use carom::physics::{Class, Contact, Method, Progress, Scene, Settings, Simulation, Until};

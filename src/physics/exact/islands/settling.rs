@@ -1,288 +1,10 @@
-//! Which contacts rest, and the islands they form: from one event of an island to the next.
+//! What an event does to the islands: spheres brought up to date, contacts released, islands settled anew.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use super::Exact;
-use super::curved::{Arc, Body, Closed, On};
-use super::flight::Flight;
-use super::impact::{Meeting, ZENO};
-use super::rest::{Settled, settle};
-use crate::physics::contact::Key;
-use crate::physics::contact_time::Part;
-use crate::physics::log::Log;
-use crate::physics::parts::{part_ahead, part_end};
-use crate::physics::support::{Fate, islands};
-use crate::physics::{Class, Kind, Model, Stall, State};
-
-/// No island.
-const NONE: u32 = u32::MAX;
-
-/// A contact that rests, or is about to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Held {
-    /// The part of the wall it rests on; for pairs without meaning.
-    part: Part,
-    /// Whether its `rest` row has been written.
-    announced: bool,
-    /// v_n when it was proposed, m/s.
-    v_n: f64,
-    /// Until when ever smaller bounces go on in truth, s: the rest is announced then.
-    bounces_until: f64,
-}
-
-/// Spheres connected by resting contacts, until something changes.
-#[derive(Debug, Clone)]
-struct Island {
-    /// Ascending; the first leads: its entry in the queue stands for the island.
-    spheres: Vec<usize>,
-    /// When its parabolas end, s.
-    end: f64,
-    curve: Option<Curve>,
-}
-
-/// A curved motion, and the chord parabola that stands for it now.
-#[derive(Debug, Clone)]
-struct Curve {
-    arc: Arc,
-    contacts: Vec<Contact>,
-    /// Where on the arc the chord begins, s.
-    offset: f64,
-    /// When the chord began, s; infinite once the spheres have been brought off it.
-    from: f64,
-    /// Its length, s.
-    length: f64,
-    /// Whether a contact lets go or changes its part at the end.
-    changes: bool,
-}
-
-/// A contact of an island: its sphere by its place there, and what it touches.
-#[derive(Debug, Clone, Copy)]
-struct Contact {
-    a: usize,
-    other: Other,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Other {
-    Wall(usize, Part),
-    Place(usize),
-}
-
-impl Contact {
-    fn closed(self, model: &Model) -> Closed<'_> {
-        let on = match self.other {
-            Other::Wall(wall, part) => On::Wall(&model.faces[wall], part),
-            Other::Place(place) => On::Body(place),
-        };
-        Closed { a: self.a, on }
-    }
-}
-
-fn closed<'a>(model: &'a Model, contacts: &[Contact]) -> Vec<Closed<'a>> {
-    contacts.iter().map(|contact| contact.closed(model)).collect()
-}
-
-impl Curve {
-    /// The motion of bodies from now on.
-    fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<Contact>, now: f64) -> Curve {
-        let arc = Arc::new(bodies, &closed(model, &contacts));
-        Curve { arc, contacts, offset: 0.0, from: now, length: 0.0, changes: false }.chord()
-    }
-
-    /// The next chord, on this arc or on the one after it.
-    fn next(self, model: &Model, now: f64) -> Curve {
-        let offset = self.offset + self.length;
-        if offset < self.arc.length {
-            return Curve { offset, from: now, ..self }.chord();
-        }
-        let arc = self.arc.go_on(&closed(model, &self.contacts));
-        Curve { arc, offset: 0.0, from: now, ..self }.chord()
-    }
-
-    /// Lays a chord from `offset` on.
-    fn chord(mut self) -> Curve {
-        let left = self.arc.length - self.offset;
-        self.length = self.arc.chord(self.offset);
-        self.changes = self.arc.changes && self.length >= left;
-        self
-    }
-
-    /// The spheres `time` (s) after the chord's beginning.
-    fn at(&self, time: f64) -> Vec<Body> {
-        self.arc.at(self.offset + time.min(self.length))
-    }
-}
-
-/// All resting contacts.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Rests {
-    held: BTreeMap<Key, Held>,
-    /// Contacts by sphere; empty until something rests.
-    of: Vec<Vec<Key>>,
-    islands: Vec<Option<Island>>,
-    vacant: Vec<u32>,
-    island_of: Vec<u32>,
-    /// Spheres whose islands must be settled before the clock goes on.
-    dirty: Vec<usize>,
-    curves: usize,
-    curved_since: f64,
-    curved_time: f64,
-}
-
-impl Rests {
-    /// Whether nothing rests.
-    #[inline]
-    pub(super) fn is_empty(&self) -> bool {
-        self.of.is_empty()
-    }
-
-    /// Whether this contact rests.
-    #[inline]
-    pub(super) fn holds(&self, key: Key) -> bool {
-        !self.of.is_empty() && !self.of[key.1].is_empty() && self.held.contains_key(&key)
-    }
-
-    /// How many contacts of sphere `i` rest.
-    pub(super) fn count(&self, i: usize) -> usize {
-        self.of.get(i).map_or(0, Vec::len)
-    }
-
-    /// Whether islands wait to be settled.
-    #[inline]
-    pub(super) fn is_dirty(&self) -> bool {
-        !self.dirty.is_empty()
-    }
-
-    /// When the island led by sphere `i` ends its parabolas, s; infinite if it leads none.
-    #[inline]
-    pub(super) fn end_led_by(&self, i: usize) -> f64 {
-        match self.island(i) {
-            Some(island) if island.spheres[0] == i => island.end,
-            _ => f64::INFINITY,
-        }
-    }
-
-    #[inline]
-    fn island(&self, i: usize) -> Option<&Island> {
-        let &number = self.island_of.get(i)?;
-        self.islands.get(number as usize)?.as_ref()
-    }
-
-    /// Time spent in curved rest until `now`, s.
-    pub(super) fn curved_time(&self, now: f64) -> f64 {
-        self.curved_time + if self.curves > 0 { now - self.curved_since } else { 0.0 }
-    }
-
-    fn count_curves(&mut self, now: f64, change: isize) {
-        self.curved_time = self.curved_time(now);
-        self.curved_since = now;
-        self.curves = self.curves.saturating_add_signed(change);
-    }
-
-    /// A contact may rest from now on: the island it belongs to will decide.
-    pub(super) fn propose(&mut self, model: &Model, flight: &Flight, now: f64, meeting: &Meeting, bounces_until: f64) {
-        let (kind, a, b) = meeting.key;
-        let part = match kind {
-            Kind::Wall => {
-                let path = flight.path(a, now);
-                let v = path.v - meeting.normal * meeting.v_n;
-                part_ahead(&model.faces[b], path.x, v, path.a, model.radii[a])
-            }
-            Kind::Pair => Part::Face,
-        };
-        if self.of.is_empty() {
-            self.of = vec![Vec::new(); model.len()];
-            self.island_of = vec![NONE; model.len()];
-        }
-        let held = Held { part, announced: false, v_n: meeting.v_n, bounces_until };
-        if self.held.insert(meeting.key, held).is_none() {
-            self.of[a].push(meeting.key);
-            if kind == Kind::Pair {
-                self.of[b].push(meeting.key);
-            }
-        }
-        self.dirty.push(a);
-    }
-
-    /// A contact rests no longer; returns whether its rest had been announced.
-    fn drop(&mut self, key: Key) -> bool {
-        let (kind, a, b) = key;
-        self.of[a].retain(|&other| other != key);
-        if kind == Kind::Pair {
-            self.of[b].retain(|&other| other != key);
-        }
-        self.held.remove(&key).is_some_and(|held| held.announced)
-    }
-
-    /// The spheres of every island that a dirty sphere belongs or is connected to, ascending.
-    fn take_dirty(&mut self) -> Vec<usize> {
-        let mut found = BTreeSet::new();
-        let mut open = std::mem::take(&mut self.dirty);
-        while let Some(i) = open.pop() {
-            if !found.insert(i) {
-                continue;
-            }
-            if let Some(island) = self.island(i) {
-                open.extend(&island.spheres);
-            }
-            for &(kind, a, b) in self.of.get(i).into_iter().flatten() {
-                open.push(a);
-                if kind == Kind::Pair {
-                    open.push(b);
-                }
-            }
-        }
-        found.into_iter().collect()
-    }
-
-    fn dissolve(&mut self, i: usize, now: f64) {
-        let number = self.island_of[i];
-        if number == NONE {
-            return;
-        }
-        if let Some(island) = self.islands[number as usize].take() {
-            self.vacant.push(number);
-            for &sphere in &island.spheres {
-                self.island_of[sphere] = NONE;
-            }
-            if island.curve.is_some() {
-                self.count_curves(now, -1);
-            }
-        }
-    }
-
-    fn found(&mut self, island: Island, now: f64) {
-        if island.curve.is_some() {
-            self.count_curves(now, 1);
-        }
-        let number = self.vacant.pop().unwrap_or(self.islands.len() as u32);
-        for &sphere in &island.spheres {
-            self.island_of[sphere] = number;
-        }
-        if number as usize == self.islands.len() {
-            self.islands.push(None);
-        }
-        self.islands[number as usize] = Some(island);
-    }
-
-    /// Puts the spheres of curved islands where their arcs are, in a state read at or after the last event.
-    pub(super) fn bend(&self, state: &mut State) {
-        for island in self.islands.iter().flatten() {
-            let Some(curve) = &island.curve else { continue };
-            if curve.from > state.t {
-                continue;
-            }
-            let bodies = curve.at(state.t - curve.from);
-            for (body, &i) in bodies.iter().zip(&island.spheres) {
-                (state.x[i], state.v[i]) = (body.x, body.v);
-            }
-        }
-    }
-}
+use super::*;
 
 impl Exact {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
-    pub(super) fn bring(&mut self, i: usize) {
+    pub(in crate::physics::exact) fn bring(&mut self, i: usize) {
         let now = self.now;
         let island = self.rests.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now));
         let Some(Island { spheres, curve: Some(curve), .. }) = island else {
@@ -299,7 +21,7 @@ impl Exact {
     }
 
     /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
-    pub(super) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
+    pub(in crate::physics::exact) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
         if self.rests.is_empty() || self.rests.of[i].is_empty() {
             return;
         }
@@ -325,7 +47,7 @@ impl Exact {
     }
 
     /// The parabolas of an island end: a foot comes to the end of its part, an arc or its chord is over.
-    pub(super) fn end_parabola(&mut self, model: &Model, leader: usize) {
+    pub(in crate::physics::exact) fn end_parabola(&mut self, model: &Model, leader: usize) {
         let now = self.now;
         let Some(island) = self.rests.island(leader) else { return };
         let spheres = island.spheres.clone();
@@ -378,7 +100,7 @@ impl Exact {
     }
 
     /// No contact is left at this instant: decides what holds, island by island.
-    pub(super) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
+    pub(in crate::physics::exact) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
         let spheres = self.rests.take_dirty();
         for &i in &spheres {
             self.bring(i);
@@ -513,12 +235,5 @@ impl Exact {
             self.now
         );
         Stall { time: self.now, kind: "resting-contact", reason }
-    }
-}
-
-impl Rests {
-    fn island_mut(&mut self, i: usize) -> Option<&mut Island> {
-        let number = *self.island_of.get(i)?;
-        self.islands.get_mut(number as usize)?.as_mut()
     }
 }

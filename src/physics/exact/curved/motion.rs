@@ -1,0 +1,225 @@
+//! The differential equation of an island of resting contacts, and one step of Runge, Kutta and Fehlberg along it.
+
+use super::*;
+
+/// The differential equation of an island while the contacts that carry a load now go on holding.
+pub(super) struct Motion<'a> {
+    holding: Vec<Closed<'a>>,
+    /// Their gaps, m: what rounding, or the scene, has left of 0. They are kept, so that nothing jumps.
+    gaps: Vec<f64>,
+    /// Contacts that stay closed without carrying anything.
+    idle: Vec<Closed<'a>>,
+    inverse_mass: Vec<f64>,
+}
+
+impl<'a> Motion<'a> {
+    pub(super) fn of(bodies: &[Body], contacts: &[Closed<'a>]) -> Motion<'a> {
+        let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+        let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
+        let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
+        let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+        let forces = accelerations(all, &resting, &[]).multipliers;
+        let loaded = contacts.iter().zip(forces).map(|(contact, force)| (*contact, force > 0.0));
+        let (holding, idle): (Vec<_>, Vec<_>) = loaded.partition(|(_, loaded)| *loaded);
+        let only = |list: Vec<(Closed<'a>, bool)>| list.into_iter().map(|(contact, _)| contact).collect();
+        let holding: Vec<Closed> = only(holding);
+        let gaps = holding.iter().map(|&contact| geometry(bodies, contact).1).collect();
+        Motion { holding, gaps, idle: only(idle), inverse_mass }
+    }
+
+    /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
+    fn rows(&self, bodies: &[Body], offset: impl Fn(f64, f64) -> f64) -> Vec<Row> {
+        self.holding.iter().map(|&contact| row(bodies, contact, &offset)).collect()
+    }
+
+    /// Accelerations, m/s², and forces of the holding contacts, N.
+    pub(super) fn accelerations(&self, bodies: &[Body]) -> (Vec<DVec3>, Vec<f64>) {
+        let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
+        bind(&self.inverse_mass, &applied, &self.rows(bodies, |_, curvature| curvature))
+    }
+
+    /// The bodies `h` seconds later.
+    pub(super) fn moved(&self, start: &[Body], h: f64) -> Vec<Body> {
+        let mut slopes: Vec<Vec<(DVec3, DVec3)>> = Vec::with_capacity(STAGES.len());
+        for weights in &STAGES {
+            let at = weighted(start, h, weights, &slopes);
+            let a = self.accelerations(&at).0;
+            slopes.push(at.iter().zip(a).map(|(body, a)| (body.v, a)).collect());
+        }
+        let mut end = weighted(start, h, &ORDER_8, &slopes);
+        self.restore(&mut end);
+        end
+    }
+
+    /// Puts the bodies back on the holding contacts by the least change in the metric of the masses: gaps as they were,
+    /// J v = 0. The gap left by a step is so small that one step of Newton's method closes it.
+    pub(super) fn restore(&self, bodies: &mut [Body]) {
+        let still = vec![DVec3::ZERO; bodies.len()];
+        let mut rows = self.rows(bodies, |gap, _| gap);
+        rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
+        let shift = bind(&self.inverse_mass, &still, &rows).0;
+        bodies.iter_mut().zip(shift).for_each(|(body, shift)| body.x += shift);
+        self.restore_velocities(bodies);
+    }
+
+    pub(super) fn restore_velocities(&self, bodies: &mut [Body]) {
+        let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let v = bind(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0)).0;
+        bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+    }
+
+    /// What later margins are measured from.
+    pub(super) fn marks(&self, bodies: &[Body]) -> Marks {
+        Marks { rooms: self.rooms(bodies), openings: self.openings(bodies, &self.accelerations(bodies).0) }
+    }
+
+    /// How far each holding contact is from where another part of its wall takes over, in radii; ∞ for pairs.
+    pub(super) fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
+        let of = |contact: &Closed| match contact.on {
+            On::Wall(face, part) => room(face, part, bodies[contact.a].x) / bodies[contact.a].r,
+            On::Body(_) => f64::INFINITY,
+        };
+        self.holding.iter().map(of).collect()
+    }
+
+    /// J a + k of the idle contacts, in units of the applied acceleration.
+    pub(super) fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
+        let of = |&contact: &Closed| {
+            let row = row(bodies, contact, &|_, curvature| curvature);
+            let relative = a[row.a] - row.b.map_or(DVec3::ZERO, |b| a[b]);
+            (row.normal.dot(relative) + row.offset) / pull(bodies)
+        };
+        self.idle.iter().map(of).collect()
+    }
+
+    /// The least that is left before something changes: load as an acceleration in units of what is applied; room in
+    /// radii, where what began at the border or beyond counts only if it has gone on outwards, beyond rounding; what an
+    /// idle contact may still open or close.
+    pub(super) fn margin(&self, bodies: &[Body], before: &Marks) -> f64 {
+        let (a, forces) = self.accelerations(bodies);
+        let loads = self.holding.iter().zip(forces);
+        let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
+        let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
+        let rooms = self.rooms(bodies).into_iter().zip(&before.rooms).map(outwards);
+        let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
+        let idle = openings.map(|(opening, before)| {
+            let closing = IDLE + opening - before.min(0.0);
+            closing.min(AJAR + before.max(0.0) - opening)
+        });
+        loads.chain(rooms).chain(idle).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Rooms and openings at the beginning of an arc.
+pub(super) struct Marks {
+    rooms: Vec<f64>,
+    openings: Vec<f64>,
+}
+
+/// Largest applied acceleration, m/s²: the unit of loads.
+pub(super) fn pull(bodies: &[Body]) -> f64 {
+    bodies.iter().map(|body| body.applied.length()).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// A contact as a row; its offset is chosen from (gap in m, k in m/s²).
+fn row(bodies: &[Body], contact: Closed, offset: &impl Fn(f64, f64) -> f64) -> Row {
+    let (resting, gap) = geometry(bodies, contact);
+    let relative = bodies[resting.a].v - resting.b.map_or(DVec3::ZERO, |b| bodies[b].v);
+    let curvature = resting.surface.curvature_term(resting.normal, relative);
+    Row { a: resting.a, b: resting.b, normal: resting.normal, offset: offset(gap, curvature) }
+}
+
+/// The start moved on by h Σ wᵢ kᵢ.
+fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3)>]) -> Vec<Body> {
+    let moved = |(i, body): (usize, &Body)| {
+        let (mut dx, mut dv) = (DVec3::ZERO, DVec3::ZERO);
+        for (&weight, slopes) in weights.iter().zip(slopes).filter(|(weight, _)| **weight != 0.0) {
+            dx += slopes[i].0 * weight;
+            dv += slopes[i].1 * weight;
+        }
+        Body { x: body.x + dx * h, v: body.v + dv * h, ..*body }
+    };
+    start.iter().enumerate().map(moved).collect()
+}
+
+/// A contact as `support` sees it, and its gap, m.
+pub(in crate::physics::exact) fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
+    let body = &bodies[contact.a];
+    match contact.on {
+        On::Wall(face, part) => {
+            let touch = touch_part(face, part, body.x, body.r);
+            let radius = body.r + touch.gap;
+            let surface = match part {
+                Part::Face => Surface::Face,
+                Part::Edge(k) => Surface::Edge { along: edge_direction(face, k), radius },
+                Part::Corner(_) => Surface::Round { radius },
+            };
+            (Resting { a: contact.a, b: None, normal: touch.normal, surface }, touch.gap)
+        }
+        On::Body(b) => {
+            let arm = body.x - bodies[b].x;
+            let radius = arm.length();
+            let surface = Surface::Round { radius };
+            (Resting { a: contact.a, b: Some(b), normal: arm / radius, surface }, radius - (body.r + bodies[b].r))
+        }
+    }
+}
+
+/// Weights of the stages of RKF 7(8), each over the stages before it.
+const STAGES: [&[f64]; 13] = [
+    &[],
+    &[2.0 / 27.0],
+    &[1.0 / 36.0, 1.0 / 12.0],
+    &[1.0 / 24.0, 0.0, 1.0 / 8.0],
+    &[5.0 / 12.0, 0.0, -25.0 / 16.0, 25.0 / 16.0],
+    &[1.0 / 20.0, 0.0, 0.0, 1.0 / 4.0, 1.0 / 5.0],
+    &[-25.0 / 108.0, 0.0, 0.0, 125.0 / 108.0, -65.0 / 27.0, 125.0 / 54.0],
+    &[31.0 / 300.0, 0.0, 0.0, 0.0, 61.0 / 225.0, -2.0 / 9.0, 13.0 / 900.0],
+    &[2.0, 0.0, 0.0, -53.0 / 6.0, 704.0 / 45.0, -107.0 / 9.0, 67.0 / 90.0, 3.0],
+    &[-91.0 / 108.0, 0.0, 0.0, 23.0 / 108.0, -976.0 / 135.0, 311.0 / 54.0, -19.0 / 60.0, 17.0 / 6.0, -1.0 / 12.0],
+    &[
+        2383.0 / 4100.0,
+        0.0,
+        0.0,
+        -341.0 / 164.0,
+        4496.0 / 1025.0,
+        -301.0 / 82.0,
+        2133.0 / 4100.0,
+        45.0 / 82.0,
+        45.0 / 164.0,
+        18.0 / 41.0,
+    ],
+    &[3.0 / 205.0, 0.0, 0.0, 0.0, 0.0, -6.0 / 41.0, -3.0 / 205.0, -3.0 / 41.0, 3.0 / 41.0, 6.0 / 41.0, 0.0],
+    &[
+        -1777.0 / 4100.0,
+        0.0,
+        0.0,
+        -341.0 / 164.0,
+        4496.0 / 1025.0,
+        -289.0 / 82.0,
+        2193.0 / 4100.0,
+        51.0 / 82.0,
+        33.0 / 164.0,
+        12.0 / 41.0,
+        0.0,
+        1.0,
+    ],
+];
+
+/// Weights of the result of order 8.
+const ORDER_8: [f64; 13] = [
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    34.0 / 105.0,
+    9.0 / 35.0,
+    9.0 / 35.0,
+    9.0 / 280.0,
+    9.0 / 280.0,
+    0.0,
+    41.0 / 840.0,
+    41.0 / 840.0,
+];
