@@ -27,7 +27,7 @@ fn main() {
     );
     for packing in [0.1, 0.3] {
         let mut first = None;
-        for (count, warm, blocks) in [(1000, 40, 7), (10_000, 20, 5), (100_000, 8, 3), (1_000_000, 3, 2)] {
+        for (count, warm, blocks) in [(1000, 40, 7), (10_000, 20, 5), (100_000, 8, 3), (1_000_000, 1, 2)] {
             if count < 1_000_000 || million {
                 let each = measure(packing, count, warm, blocks);
                 println!("{:>110}", format!("{:.2} times the first", each / *first.get_or_insert(each)));
