@@ -36,7 +36,9 @@ struct Past {
 #[derive(Debug, Clone)]
 pub(super) struct Flight {
     pub(super) lines: Vec<Line>,
-    /// Acceleration of each, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty if nothing pulls.
+    /// What accelerates every sphere alike, m/s², as long as `accelerations` is empty.
+    common: DVec3,
+    /// Acceleration of each, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
     accelerations: Vec<DVec3>,
     past: Vec<Past>,
 }
@@ -44,24 +46,24 @@ pub(super) struct Flight {
 impl Flight {
     pub(super) fn new(model: &Model, state: &State) -> Flight {
         let line = |i: usize| Line { x: state.x[i], v: state.v[i], t: state.t, r: model.radii[i] };
-        let pulled = model.pull != Pull::None;
-        Flight {
-            lines: (0..model.len()).map(line).collect(),
-            accelerations: if pulled { (0..model.len()).map(|i| model.acceleration(i)).collect() } else { Vec::new() },
-            past: Vec::new(),
-        }
+        let (common, accelerations) = match model.pull {
+            Pull::None => (DVec3::ZERO, Vec::new()),
+            Pull::Uniform(g) => (g, Vec::new()),
+            Pull::PerSphere => (DVec3::ZERO, model.accelerations.clone()),
+        };
+        Flight { lines: (0..model.len()).map(line).collect(), common, accelerations, past: Vec::new() }
     }
 
     /// Acceleration of sphere `i`, m/s².
     #[inline]
     pub(super) fn acceleration(&self, i: usize) -> DVec3 {
-        if self.accelerations.is_empty() { DVec3::ZERO } else { self.accelerations[i] }
+        if self.accelerations.is_empty() { self.common } else { self.accelerations[i] }
     }
 
-    /// Whether nothing accelerates any sphere.
+    /// What accelerates every sphere alike, m/s²; none once they differ.
     #[inline]
-    pub(super) fn is_straight(&self) -> bool {
-        self.accelerations.is_empty()
+    pub(super) fn common(&self) -> Option<DVec3> {
+        self.accelerations.is_empty().then_some(self.common)
     }
 
     /// The path of sphere `i` from time `t` (s) on.
@@ -95,7 +97,7 @@ impl Flight {
             return;
         }
         self.keep(i, self.lines[i].t);
-        self.accelerations.resize(self.lines.len(), DVec3::ZERO);
+        self.accelerations.resize(self.lines.len(), self.common);
         self.accelerations[i] = a;
     }
 
@@ -123,6 +125,10 @@ impl Flight {
     }
 
     fn keep(&mut self, i: usize, until: f64) {
+        // a line replaced at its own time was never in force
+        if self.lines[i].t == until {
+            return;
+        }
         let past = Past { sphere: i as u32, until, line: self.lines[i], acceleration: self.acceleration(i) };
         self.past.push(past);
     }

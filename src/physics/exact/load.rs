@@ -1,6 +1,7 @@
 //! Contacts that exist at load: here alone does a gap of rounding's size count as touching.
 
 use super::Exact;
+use super::cells::Near;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::touch;
 use crate::physics::log::Log;
@@ -43,6 +44,7 @@ impl Exact {
     /// Every contact with a gap of at most max(1e-12 r, 8 ulp of the coordinates): walls before pairs, then a, then b.
     fn touching_now(&self, model: &Model) -> Vec<Key> {
         let mut found = Vec::new();
+        let mut near = Near::nobody();
         let lines = &self.flight.lines;
         for (i, line) in lines.iter().enumerate() {
             let slack = touching(line.r, line.x.abs().max_element());
@@ -63,7 +65,10 @@ impl Exact {
             };
             match &self.cells {
                 None => (i + 1..lines.len()).for_each(&mut pair),
-                Some(cells) => cells.around(i, &mut pair),
+                Some(cells) => {
+                    cells.around(i, &mut near);
+                    near.slots().iter().chain(near.spilled()).for_each(|&j| pair(j as usize));
+                }
             }
         }
         found.sort_unstable();

@@ -1,7 +1,10 @@
 //! What happens next to one sphere: its earliest contact, its way out of its cube, the end of its island's parabola.
 
+use glam::DVec3;
+
 use super::Exact;
-use super::cells::Way;
+use super::cells::{Near, Way};
+use super::flight::Line;
 use crate::physics::contact_time::{Path, sphere_sphere, sphere_wall, straight_pair};
 use crate::physics::{Kind, Model};
 
@@ -43,21 +46,12 @@ impl Exact {
     pub(super) fn predict(&mut self, model: &Model, i: usize) {
         let path = self.flight.path(i, self.now);
         let mut plan = Plan::IDLE;
-        let evaluations = match &self.cells {
-            None => {
-                let walls = 0..model.faces.len();
-                let spheres = (0..model.len()).filter(|&j| j != i);
-                self.walls(model, i, &path, walls, &mut plan)
-                    + spheres.map(|j| self.pair(i, &path, j, &mut plan)).sum::<u64>()
-            }
-            Some(cells) => {
-                let walls = cells.walls_near(i).iter().map(|&wall| wall as usize);
-                let mut count = self.walls(model, i, &path, walls, &mut plan);
-                cells.around(i, |j| count += self.pair(i, &path, j, &mut plan));
-                let (crossing, way) = cells.crossing(i, &path);
-                (plan.crossing, plan.way) = (self.now + crossing, way);
-                count
-            }
+        let evaluations = if self.cells.is_some() {
+            self.meet_near(model, i, &path, None, &mut plan)
+        } else {
+            let spheres = (0..model.len()).filter(|&j| j != i);
+            self.walls(model, i, &path, 0..model.faces.len(), &mut plan)
+                + spheres.map(|j| self.pair(i, &path, j, &mut plan)).sum::<u64>()
         };
         self.evaluations += evaluations;
         self.plans[i] = plan;
@@ -68,17 +62,30 @@ impl Exact {
     pub(super) fn cross(&mut self, model: &Model, i: usize) {
         let mut plan = self.plans[i];
         let path = self.flight.path(i, self.now);
-        let Some(mut cells) = self.cells.take() else { return };
+        let Some(cells) = &mut self.cells else { return };
         cells.cross(i, plan.way);
-        let walls = cells.walls_near(i).iter().map(|&wall| wall as usize);
-        let mut count = self.walls(model, i, &path, walls, &mut plan);
-        cells.ahead(i, plan.way, |j| count += self.pair(i, &path, j, &mut plan));
-        let (crossing, way) = cells.crossing(i, &path);
-        (plan.crossing, plan.way) = (self.now + crossing, way);
-        self.cells = Some(cells);
-        self.evaluations += count;
+        self.evaluations += self.meet_near(model, i, &path, Some(plan.way), &mut plan);
         self.plans[i] = plan;
         self.schedule(i);
+    }
+
+    /// Looks at the walls near sphere `i`'s cube and at the spheres around it, or only at those that came within reach
+    /// when it went `way`; and when it will leave its cube. Returns how many it looked at.
+    fn meet_near(&mut self, model: &Model, i: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
+        let Some(cells) = &mut self.cells else { return 0 };
+        let mut near = std::mem::take(&mut cells.near);
+        match way {
+            None => cells.around(i, &mut near),
+            Some(way) => cells.ahead(i, way, &mut near),
+        }
+        let (crossing, way) = cells.crossing(i, path);
+        (plan.crossing, plan.way) = (self.now + crossing, way);
+        let walls = self.cells.iter().flat_map(|cells| cells.walls_near(i)).map(|&wall| wall as usize);
+        let count = self.walls(model, i, path, walls, plan) + self.pairs(i, path, &near, plan);
+        if let Some(cells) = &mut self.cells {
+            cells.near = near;
+        }
+        count
     }
 
     /// Enters the earliest of sphere `i`'s plan and its island's end into the queue.
@@ -120,19 +127,70 @@ impl Exact {
         count
     }
 
+    /// Looks at the pairs of sphere `i` and those near it, itself among them or not; returns how many.
+    #[inline]
+    fn pairs(&self, i: usize, path: &Path, near: &Near, plan: &mut Plan) -> u64 {
+        match self.flight.common() {
+            Some(DVec3::ZERO) => self.alike(i, path, near.slots(), |line, dt| (line.x + line.v * dt, line.v), plan),
+            Some(a) => {
+                let then = |line: &Line, dt: f64| (line.x + (line.v + a * (0.5 * dt)) * dt, line.v + a * dt);
+                self.alike(i, path, near.slots(), then, plan);
+            }
+            None => {
+                for &j in near.slots().iter().filter(|&&j| j as usize != i) {
+                    self.pair(i, path, j as usize, plan);
+                }
+            }
+        }
+        for &j in near.spilled().iter().filter(|&&j| j as usize != i) {
+            self.pair(i, path, j as usize, plan);
+        }
+        (near.slots().len() + near.spilled().len()) as u64
+    }
+
+    /// Looks at pairs whose relative motion is straight. One in ten meets at all: that is the only branch, a weaker
+    /// question than that of [`straight_pair`].
+    #[inline(always)]
+    fn alike(&self, i: usize, path: &Path, near: &[u32], then: impl Fn(&Line, f64) -> (DVec3, DVec3), plan: &mut Plan) {
+        let lines = &self.flight.lines[..];
+        let r = lines[i].r;
+        for &j in near {
+            let line = &lines[j as usize];
+            let (x, v) = then(line, self.now - line.t);
+            let (x, v, reach) = (path.x - x, path.v - v, r + line.r);
+            // a pair that parts counts as one that passes by, as sphere i itself does
+            let b = x.dot(v).min(0.0);
+            let c = x.length_squared() - reach * reach;
+            if b * b > v.length_squared() * c {
+                if let Some(t) = straight_pair(x, v, reach) {
+                    let time = self.now + t;
+                    // what j meets before makes it look around anew, and find i then
+                    if time <= self.plans[j as usize].contact {
+                        self.offer(i, j as usize, time, plan);
+                    }
+                }
+            }
+        }
+    }
+
     /// Looks at one pair; returns 1 if there was anything to look at.
     #[inline]
     fn pair(&self, i: usize, path: &Path, j: usize, plan: &mut Plan) -> u64 {
         let line = &self.flight.lines[j];
         let reach = self.flight.lines[i].r + line.r;
-        let found = if self.flight.is_straight() {
+        let found = if self.flight.common() == Some(DVec3::ZERO) {
             straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach)
         } else {
             let relative = path.relative_to(&self.flight.path(j, self.now));
             sphere_sphere(&relative, reach, plan.contact - self.now)
         };
         let Some(t) = found else { return 1 };
-        let time = self.now + t;
+        self.offer(i, j, self.now + t, plan)
+    }
+
+    /// Plans to meet sphere `j` at `time` (s) if nothing is planned before; returns 0 if the two rest on each other.
+    #[inline]
+    fn offer(&self, i: usize, j: usize, time: f64, plan: &mut Plan) -> u64 {
         if time < plan.contact || time == plan.contact && self.wins_tie(i, j, plan) {
             if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
                 return 0;

@@ -52,13 +52,27 @@ impl Queue {
         if time == f64::INFINITY {
             return (time, 0);
         }
+        let mut place = 0;
+        for level in (0..=top).rev() {
+            let equal = equals(&self.levels[level][place * FAN..place * FAN + FAN], time);
+            if equal & (equal - 1) != 0 {
+                return (time, self.first_of_equals(time, before));
+            }
+            place = place * FAN + equal.trailing_zeros() as usize;
+        }
+        (time, place)
+    }
+
+    /// Which of several spheres with the earliest time `before` puts first.
+    #[cold]
+    fn first_of_equals(&self, time: f64, before: impl Fn(usize, usize) -> bool) -> usize {
         let mut best = usize::MAX;
-        self.descend(top, 0, time, &mut |i| {
+        self.descend(self.levels.len() - 1, 0, time, &mut |i| {
             if best == usize::MAX || before(i, best) {
                 best = i;
             }
         });
-        (time, best)
+        best
     }
 
     fn descend(&self, level: usize, block: usize, time: f64, visit: &mut impl FnMut(usize)) {
@@ -71,6 +85,15 @@ impl Queue {
             }
         }
     }
+}
+
+/// A bit for each of eight times that equals `time`, the least of them.
+#[inline]
+fn equals(times: &[f64], time: f64) -> u32 {
+    let &[a, b, c, d, e, f, g, h] = times else { return 1 };
+    // none is below the least: one comparison tells, where equality takes two
+    let bit = |t: f64, k: u32| u32::from(t <= time) << k;
+    bit(a, 0) | bit(b, 1) | bit(c, 2) | bit(d, 3) | bit(e, 4) | bit(f, 5) | bit(g, 6) | bit(h, 7)
 }
 
 /// The smallest of eight times, pairwise.
