@@ -41,7 +41,7 @@ fn gases() -> [(&'static str, Scene); 4] {
     let mut crowded = falling.clone();
     for (i, body) in crowded.spheres.iter_mut().enumerate() {
         body.radius = if i == 21 { 0.1 } else { 0.02 };
-        body.x = body.x * 0.5;
+        body.x *= 0.5;
     }
     [("straight", straight), ("falling", falling), ("forced", forced), ("crowded", crowded)]
 }
