@@ -161,13 +161,13 @@ impl Exact {
             // a pair that parts counts as one that passes by, as sphere i itself does
             let b = x.dot(v).min(0.0);
             let c = x.length_squared() - reach * reach;
-            if b * b > v.length_squared() * c {
-                if let Some(t) = straight_pair(x, v, reach) {
-                    let time = self.now + t;
-                    // what j meets before makes it look around anew, and find i then
-                    if time <= self.plans[j as usize].contact {
-                        self.offer(i, j as usize, time, plan);
-                    }
+            if b * b > v.length_squared() * c
+                && let Some(t) = straight_pair(x, v, reach)
+            {
+                let time = self.now + t;
+                // what j meets before makes it look around anew, and find i then
+                if time <= self.plans[j as usize].contact {
+                    self.offer(i, j as usize, time, plan);
                 }
             }
         }
