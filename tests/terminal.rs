@@ -9,7 +9,7 @@ use pty::{Pty, Start, carom};
 use rustix::process::Signal;
 
 /// A word that every complete first frame shows in its last row.
-const HINT: &str = "space run";
+const HINT: &str = "space pause";
 
 /// A paused program with its first frame on the screen, and the modes its terminal had before.
 fn paused() -> Pty {
@@ -72,7 +72,7 @@ fn keys_work_and_the_cursor_shows_where_text_is_typed() {
 
 #[test]
 fn signals_end_it_with_their_code_and_a_clean_terminal() {
-    for (signal, code) in [(Signal::TERM, 143), (Signal::INT, 130), (Signal::HUP, 129)] {
+    for (signal, code) in [(Signal::TERM, 143), (Signal::INT, 130), (Signal::HUP, 129), (Signal::QUIT, 131)] {
         for arguments in [&["paper-0"][..], &["paper-0", "--paused"]] {
             let mut pty = carom(arguments).run();
             pty.until_text(HINT);

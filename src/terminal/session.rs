@@ -112,6 +112,10 @@ impl Session {
     /// If the terminal is gone.
     pub(super) fn write(&self, bytes: &[u8]) -> io::Result<bool> {
         let screen = self.screen.lock().unwrap_or_else(|poison| poison.into_inner());
+        // A picture still in the writer's mailbox while we were stopped would land on the shell's screen.
+        if !self.ours.load(Ordering::Acquire) {
+            return Ok(false);
+        }
         Ok(screen.send(bytes, || self.ours.load(Ordering::Acquire))?)
     }
 

@@ -4,7 +4,7 @@ use std::{io, sync::Arc, thread, time::Duration};
 
 use rustix::process::{Signal, getpgrp, getppid, getsid, kill_current_process_group};
 use signal_hook::{
-    consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP, SIGWINCH},
+    consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH},
     iterator::Signals,
 };
 
@@ -18,7 +18,7 @@ const GRACE: Duration = Duration::from_millis(500);
 /// # Errors
 /// If the system refuses a handler or the thread.
 pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH])?;
+    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])?;
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
             match signal {
