@@ -150,7 +150,7 @@ fn an_unknown_key_does_nothing_but_clear_the_message() {
     user.type_in("R");
     assert!(user.row(-1).contains("there is no file to reload"), "{}", user.row(-1));
     user.type_in("Q");
-    assert!(user.row(-1).contains("space run"), "{}", user.row(-1));
+    assert!(user.row(-1).contains("space pause"), "{}", user.row(-1));
     assert!(user.app.settled());
 }
 
@@ -218,7 +218,7 @@ fn escape_never_quits() {
         for _ in 0..3 {
             assert_eq!(user.press(Key::plain(Code::Escape)), Effect::DrawNow);
         }
-        assert!(user.row(-1).contains("space run"), "{opened:?}: {}", user.text());
+        assert!(user.row(-1).contains("space pause"), "{opened:?}: {}", user.text());
     }
 }
 

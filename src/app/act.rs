@@ -99,7 +99,12 @@ impl App {
             Action::Prompt => self.open = Open::Prompt(String::new()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
-            Action::Close => self.open = Open::Nothing,
+            Action::Close => {
+                if self.headed {
+                    self.run(false);
+                }
+                self.open = Open::Nothing;
+            }
             _ => self.change_look(action),
         }
         Effect::DrawNow
@@ -131,11 +136,17 @@ impl App {
         }
     }
 
+    /// Runs to where a command leads, not on and on.
+    fn head_for(&mut self, command: Command, on: bool) {
+        (self.running, self.headed) = (on, on);
+        self.worker.send(command);
+    }
+
     /// Steps or runs on from a pause.
     fn advance(&mut self, command: Command) {
         if !self.say_if_stalled() {
-            self.running = !matches!(command, Command::Step);
-            self.worker.send(command);
+            let on = !matches!(command, Command::Step);
+            self.head_for(command, on);
         }
     }
 
@@ -301,8 +312,8 @@ impl App {
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
             Ok(Some(Order::Goto(t))) => {
-                self.running = true;
-                self.worker.send(Command::Goto(t));
+                self.head_for(Command::Goto(t), true);
+                self.say("On the way; Esc stops.");
             }
             #[cfg(debug_assertions)]
             Ok(Some(Order::Panic { simulation: true })) => self.worker.send(Command::Panic),

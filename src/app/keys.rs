@@ -114,7 +114,7 @@ use Key as K;
 
 /// What every key does while nothing that takes typing is open.
 const TABLE: &[Binding] = &[
-    hint(&[K::char(' '), K::char('p')], Action::TogglePause, "pause / run", "run"),
+    hint(&[K::char(' '), K::char('p')], Action::TogglePause, "pause / run", "pause/run"),
     hint(&[K::char('.'), K::char('n'), K::plain(Code::Right)], Action::Step, "step one frame", "step"),
     hint(&[K::char('c')], Action::NextImpact, "run to the next collision", "collision"),
     hint(&[K::char('r')], Action::Restart, "restart", "restart"),

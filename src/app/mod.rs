@@ -102,6 +102,8 @@ pub struct App {
     speed: f64,
     /// Whether the run was told to run; the worker's latest report may not know yet.
     running: bool,
+    /// Whether it runs to a collision or a time, where it stops; Esc stops it before.
+    headed: bool,
     look: Look,
     open: Open,
     message: Option<String>,
@@ -133,6 +135,7 @@ impl App {
             settings: setup.settings,
             speed: 1.0,
             running: false,
+            headed: false,
             look: first_look(setup.marker, setup.colors),
             open: Open::Nothing,
             message: None,
@@ -194,6 +197,7 @@ impl App {
         }
         if self.report.obeyed == self.worker.sent() {
             self.running = self.report.activity == Activity::Running;
+            self.headed &= self.running;
         }
         if self.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
             self.message.clone_from(&self.report.snapshot.stall);
@@ -206,7 +210,7 @@ impl App {
     }
 
     fn run(&mut self, on: bool) {
-        self.running = on;
+        (self.running, self.headed) = (on, false);
         self.worker.send(Command::Run(on));
     }
 

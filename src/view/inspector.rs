@@ -14,7 +14,7 @@ use crate::snapshot::{Class, Contact, Kind, Snapshot};
 /// Rows of the run's balance, and those that the contacts should have at least.
 const RUN: usize = 9;
 /// See [`RUN`].
-const CONTACTS: usize = 8;
+const CONTACTS: usize = 14;
 
 /// Rows kept for the search for the collision time, if there was one.
 const SEARCH: usize = 6;
@@ -146,7 +146,9 @@ fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
     let contacts = &snapshot.contacts;
     column.heading("contacts", &format!("{} in this frame", contacts.len()));
     draw_legend(column);
-    let search = if snapshot.probes.is_empty() { 1 } else { SEARCH };
+    // The contacts come first: the search gets what they leave, up to its share.
+    let spare = column.rows().saturating_sub(2 * contacts.len().min(1));
+    let search = if snapshot.probes.is_empty() { 1 } else { SEARCH.min(spare) };
     let room = (column.rows().saturating_sub(search) / 2).min(contacts.len());
     for contact in &contacts[..room] {
         draw_contact(contact, column);

@@ -34,8 +34,11 @@ enum Goal {
     On,
     /// So many frames further.
     Frames(u64),
-    /// To a frame after which there have been more impacts than this.
-    Impact(u64),
+    /// To a frame after which there have been more impacts than `past`, or that ends after `last`, s.
+    Impact {
+        past: u64,
+        last: f64,
+    },
     /// To a frame that ends at or after this time, s.
     Time(f64),
 }
@@ -147,7 +150,11 @@ impl Runner {
                 Goal::Frames(n) => self.goal = Goal::Frames(n + 1),
                 _ => self.head_for(Goal::Frames(1)),
             },
-            Command::NextImpact => self.head_for(Goal::Impact(self.simulation.tallies().impacts)),
+            Command::NextImpact => {
+                // All may rest: what does not come within another duration of the scene is not waited for.
+                let last = self.simulation.time() + self.job.stage.duration;
+                self.head_for(Goal::Impact { past: self.simulation.tallies().impacts, last });
+            }
             Command::Goto(t) => {
                 if t < self.simulation.time() {
                     self.restart(self.simulation.settings());
@@ -221,9 +228,13 @@ impl Runner {
     fn arrive(&mut self) {
         self.goal = match self.goal {
             Goal::Frames(n) if n > 1 => Goal::Frames(n - 1),
-            Goal::Impact(past) if self.simulation.tallies().impacts <= past => Goal::Impact(past),
+            Goal::Impact { past, last }
+                if self.simulation.tallies().impacts <= past && self.simulation.time() < last =>
+            {
+                Goal::Impact { past, last }
+            }
             Goal::On => Goal::On,
-            Goal::Nowhere | Goal::Frames(_) | Goal::Impact(_) | Goal::Time(_) => Goal::Nowhere,
+            Goal::Nowhere | Goal::Frames(_) | Goal::Impact { .. } | Goal::Time(_) => Goal::Nowhere,
         };
     }
 
