@@ -112,7 +112,7 @@ impl Exact {
 
     fn no_progress(&self, events: u64) -> Stall {
         let reason = format!(
-            "{events} events happened at t = {} s without the clock advancing; set a larger rest_speed or use the method moreau.",
+            "{events} events happened at t = {} s without the clock advancing; set a larger rest_speed, or change the method from here.",
             self.now
         );
         Stall { time: self.now, kind: "no-progress", reason }

@@ -229,7 +229,7 @@ impl Exact {
 
     fn not_held(&self, keys: &[Key]) -> Stall {
         let reason = format!(
-            "The support forces of {} resting contacts (sphere {} among them) could not be found at t = {} s; use the method moreau.",
+            "The support forces of {} resting contacts (sphere {} among them) could not be found at t = {} s; start them a little apart, or change the method from here.",
             keys.len(),
             keys[0].1,
             self.now
