@@ -2,13 +2,13 @@
 //!
 //! Source: isolation by the roots of the derivative, then Newton's method kept inside a bracket by bisection (Press et
 //! al., *Numerical Recipes*, 9.4–9.5); the quadratic by q = −(b + sign(b)√D)/2, which loses neither root to
-//! cancellation. The crate polycool finds the same roots in the same time; this needs no dependency.
+//! cancellation. No dependency is needed for that.
 //!
 //! Assumes finite coefficients, lowest power first. Guarantees: roots ascending, inside the interval, and at each of
 //! them the polynomial as evaluated in floating point changes sign within one representable step (so the residual is
 //! that of rounding, also where roots are ill-conditioned). Limits: two roots closer than rounding may be reported as
-//! none or one, so a tangency is not reliable; callers here never need one. Cost: about 20 ns for a quadratic and
-//! 0.3–0.7 µs for a quartic. Only + − × ÷ √ and comparisons, so the bits are the same everywhere.
+//! none or one, so a tangency is not reliable; callers here never need one. Cost: a quartic takes
+//! some tens of Newton steps. Only + − × ÷ √ and comparisons, so the bits are the same everywhere.
 
 /// At most four roots, ascending.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
