@@ -3,9 +3,13 @@
 //! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture` is the whole campaign; the ordinary suite
 //! runs the first forty of the same scenes. `CAROM_CAMPAIGN_FROM` sets the first seed.
 
+#[path = "support/random.rs"]
+mod random;
 mod support;
 
 use std::collections::BTreeSet;
+
+use random::Random;
 
 use carom::physics::contact_time::{Part, touch};
 use carom::physics::{Class, Kind, Method, Model, Progress, Scene, Settings, Simulation, State, Until};
@@ -14,31 +18,6 @@ use glam::{DVec3, dvec3};
 use support::{room, scene, wall};
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        dvec3(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
-    }
-
-    fn pick<T: Copy>(&mut self, of: &[T]) -> T {
-        of[(self.unit() * of.len() as f64) as usize]
-    }
-}
 
 fn law(random: &mut Random) -> ContactLaw {
     let mut restitution = || match random.pick(&[0, 1, 2, 2, 2, 3]) {

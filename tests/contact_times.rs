@@ -1,35 +1,14 @@
 //! When do bodies next touch? `contact_time` against an oracle that shares no code with it: fine sampling of the gap
 //! with conservative steps, and a ternary search wherever the samples have a minimum.
 
+#[path = "support/random.rs"]
+mod random;
+
 use carom::geometry::Parallelogram;
 use carom::physics::contact_time::{Part, Path, sphere_sphere, sphere_wall, touch};
 use carom::physics::model::Face;
 use glam::DVec3;
-
-/// SplitMix64: the same cases everywhere.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn decade(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low, high))
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
-    }
-}
+use random::Random;
 
 /// Gap of a sphere and a parallelogram by the normal equations of min |q − u s1 − w s2|² over the box, then its edges.
 fn wall_gap(wall: &Parallelogram, x: DVec3, r: f64) -> f64 {
