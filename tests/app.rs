@@ -388,3 +388,25 @@ fn a_worker_that_waits_sends_no_news() {
     let silence = Duration::from_millis(300); // longer than eighteen reports of a running run
     assert_eq!(news.recv_timeout(silence), Err(mpsc::RecvTimeoutError::Timeout));
 }
+
+#[test]
+fn the_search_for_a_collision_ends_one_duration_later_where_none_comes() {
+    let mut user = User::with("paper-0");
+    user.type_in(":goto 15\n"); // its last impact is at 12 s, its duration 20 s
+    let (t, impacts) = (user.snapshot().t, user.snapshot().tallies.impacts);
+    user.type_in("c");
+    // the first frame that ends after that, of dt = 0.01 s
+    assert!((20.0..20.02).contains(&(user.snapshot().t - t)), "{t} s, {} s", user.snapshot().t);
+    assert_eq!(user.snapshot().tallies.impacts, impacts);
+}
+
+#[test]
+fn escape_stops_on_the_way_to_a_time() {
+    let mut user = User::with("box-gas");
+    user.type_in(":goto 1e9");
+    let _ = user.app.handle(Input::Key(Key::plain(Code::Enter)));
+    user.until("under way", |app| app.report().snapshot.t > 0.0);
+    user.type_in("\x1b");
+    assert!(user.snapshot().t < 1e9);
+    assert!(user.row(0).contains("PAUSE"), "{}", user.row(0));
+}
