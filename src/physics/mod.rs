@@ -10,6 +10,7 @@ use glam::DVec3;
 pub mod contact;
 pub mod contact_time;
 mod exact;
+mod knobs;
 mod log;
 pub mod model;
 pub mod motion;
@@ -23,6 +24,7 @@ pub mod state;
 pub mod support;
 
 pub use contact::{Class, Contact, Kind, Probe};
+pub use knobs::{Knobs, knobs};
 use log::Log;
 pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
 pub use requirements::Requirements;
