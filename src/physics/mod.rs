@@ -9,6 +9,7 @@ use glam::DVec3;
 
 pub mod contact;
 pub mod contact_time;
+mod detector;
 mod exact;
 mod knobs;
 mod log;
@@ -22,6 +23,7 @@ mod requirements;
 mod sealed;
 pub mod state;
 pub mod support;
+mod swept;
 
 pub use contact::{Class, Contact, Kind, Probe};
 pub use knobs::{Knobs, knobs};
@@ -71,6 +73,7 @@ pub struct Description {
 pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
+        Method::Swept => &swept::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
     }
 }
@@ -105,8 +108,10 @@ trait Engine {
 enum Engines {
     /// The source paper's.
     Paper(paper::Paper),
-    /// Event by event.
-    Exact(exact::Exact),
+    /// Event by event, contact times found by looking.
+    Swept(exact::Exact<swept::Advance>),
+    /// Event by event, contact times by roots.
+    Exact(exact::Exact<exact::Roots>),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -114,6 +119,7 @@ macro_rules! each {
     ($engines:expr, $engine:ident => $call:expr) => {
         match $engines {
             Engines::Paper($engine) => $call,
+            Engines::Swept($engine) => $call,
             Engines::Exact($engine) => $call,
         }
     };
@@ -123,6 +129,7 @@ impl Engines {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+            Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
         }
     }

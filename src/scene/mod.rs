@@ -87,18 +87,21 @@ pub struct ContactLaw {
 pub enum Method {
     /// The source paper's: Euler frames, bisection, impulses over the next step.
     Paper,
+    /// Ballistic flight, contacts found by looking ahead, to a tolerance; nothing tunnels.
+    Swept,
     /// Event-driven: parabolas between contacts whose times are computed; no time step.
     Exact,
 }
 
 impl Method {
     /// Every method, in the order in which `m` cycles through them.
-    pub const ALL: &'static [Method] = &[Method::Paper, Method::Exact];
+    pub const ALL: &'static [Method] = &[Method::Paper, Method::Swept, Method::Exact];
 
     /// The word used in scene files, options and columns.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Paper => "paper",
+            Method::Swept => "swept",
             Method::Exact => "exact",
         }
     }
