@@ -12,6 +12,7 @@ pub mod contact_time;
 mod exact;
 mod log;
 pub mod model;
+mod moreau;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
@@ -70,6 +71,7 @@ pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
+        Method::Moreau => &moreau::DESCRIPTION,
     }
 }
 
@@ -105,6 +107,8 @@ enum Engines {
     Paper(paper::Paper),
     /// Event by event.
     Exact(exact::Exact),
+    /// Velocity-level time-stepping.
+    Moreau(moreau::Moreau),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -113,6 +117,7 @@ macro_rules! each {
         match $engines {
             Engines::Paper($engine) => $call,
             Engines::Exact($engine) => $call,
+            Engines::Moreau($engine) => $call,
         }
     };
 }
@@ -122,6 +127,7 @@ impl Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
+            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
         }
     }
 }

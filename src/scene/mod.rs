@@ -89,17 +89,20 @@ pub enum Method {
     Paper,
     /// Event-driven: parabolas between contacts whose times are computed; no time step.
     Exact,
+    /// Moreau–Jean: all contacts of a frame as one complementarity problem.
+    Moreau,
 }
 
 impl Method {
     /// Every method, in the order in which `m` cycles through them.
-    pub const ALL: &'static [Method] = &[Method::Paper, Method::Exact];
+    pub const ALL: &'static [Method] = &[Method::Paper, Method::Exact, Method::Moreau];
 
     /// The word used in scene files, options and columns.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Paper => "paper",
             Method::Exact => "exact",
+            Method::Moreau => "moreau",
         }
     }
 
