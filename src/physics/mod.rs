@@ -14,6 +14,7 @@ mod exact;
 mod knobs;
 mod log;
 pub mod model;
+mod moreau;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
@@ -75,6 +76,7 @@ pub fn describe(method: Method) -> &'static Description {
         Method::Paper => &paper::DESCRIPTION,
         Method::Swept => &swept::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
+        Method::Moreau => &moreau::DESCRIPTION,
     }
 }
 
@@ -112,6 +114,8 @@ enum Engines {
     Swept(exact::Exact<swept::Advance>),
     /// Event by event, contact times by roots.
     Exact(exact::Exact<exact::Roots>),
+    /// Velocity-level time-stepping.
+    Moreau(moreau::Moreau),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -121,6 +125,7 @@ macro_rules! each {
             Engines::Paper($engine) => $call,
             Engines::Swept($engine) => $call,
             Engines::Exact($engine) => $call,
+            Engines::Moreau($engine) => $call,
         }
     };
 }
@@ -131,6 +136,7 @@ impl Engines {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
             Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
+            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
         }
     }
 }
