@@ -193,7 +193,7 @@ impl Exact {
             }
             Class::Leave | Class::Release => {
                 if meeting.a_n >= 0.0 {
-                    self.part(model, key, f64::EPSILON * self.flight.lines[key.1].v.length());
+                    self.part(model, key, self.hop_speed(&meeting));
                 }
                 Ok(())
             }
@@ -289,6 +289,14 @@ impl Exact {
             self.predict(model, i);
         }
         Ok(())
+    }
+
+    /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
+    /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
+    fn hop_speed(&self, meeting: &Meeting) -> f64 {
+        let path = self.flight.path(meeting.key.1, self.now);
+        let pressing = (-meeting.normal.dot(path.a)).max(0.0);
+        f64::EPSILON * path.v.length() + self.tick() * pressing
     }
 
     /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
