@@ -27,7 +27,9 @@ use glam::DVec3;
 use super::contact::Key;
 use super::log::Log;
 use super::overlap::{self, Finder};
-use super::{Class, Contact, Description, Engine, Kind, Method, Model, Progress, Settings, Stall, State, Until, motion};
+use super::{
+    Class, Contact, Description, Engine, Kind, Method, Model, Progress, Settings, Stall, State, Until, motion,
+};
 use frame::Stage;
 use meeting::Row;
 use search::Search;
