@@ -124,7 +124,7 @@ fn power(label: &str) -> String {
 fn words(rows: &[TradeRow], axes: &Axes, svg: &mut String) {
     let Plot { left, top, width, height } = axes.plot;
     let horizon = match rows[0].horizon {
-        Some(time) => format!("horizon {time:.2} s"),
+        Some(time) => format!("horizon {} s", super::report::plain(time)),
         None => "no horizon within the run".into(),
     };
     let title = escape(&format!("{}: accuracy for time ({horizon})", rows[0].scene));

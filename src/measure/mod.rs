@@ -10,6 +10,7 @@
 //!   [`Reference::meaningful`] says until when positions can be compared.
 //! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
+//! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
 //!
 //! Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it says no.
 //! Everything but times repeats to the bit.
@@ -23,8 +24,10 @@
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
+//! | `accuracy` | the cheapest setting that meets an error |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 
+mod accuracy;
 mod chart;
 mod clock;
 mod cost;
@@ -41,6 +44,7 @@ mod sweep;
 mod trade;
 mod walk;
 
+pub use accuracy::{Choice, Miss, Tried, choose};
 pub use cost::{Cost, cost};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;

@@ -66,6 +66,16 @@ impl Reference {
         Ok(reference)
     }
 
+    /// The same by `exact` alone, up to `until` (s) or as far as `budget` events take it.
+    ///
+    /// # Errors
+    /// If `go_on` says no.
+    pub fn brief(scene: &Scene, until: f64, budget: u64, go_on: GoOn) -> Result<Reference, Interrupted> {
+        let (mut reference, _) = Reference::by(scene, settings(until), until, budget, go_on)?;
+        reference.horizon = horizon::of(scene, &reference, budget, go_on)?;
+        Ok(reference)
+    }
+
     fn by(
         scene: &Scene,
         settings: Settings,

@@ -88,8 +88,14 @@ pub fn walk(
     simulation.record_events(true);
     let (mut impacts, mut cut, mut end, mut left) = (Vec::new(), None, 0.0, budget);
     for k in 0..=instants.count {
+        if !go_on() {
+            return Err(Interrupted);
+        }
         cut = reach(simulation, instants.at(k), &mut left, go_on)?;
         keep_impacts(simulation, &mut impacts);
+        // Slices that were not used up count by their frames: of `exact`, one an event.
+        let spent = simulation.tallies().frames > left;
+        cut = cut.or(spent.then_some(Cut::Spent));
         if cut.is_some() {
             break;
         }
