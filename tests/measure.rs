@@ -13,7 +13,7 @@ mod pty;
 mod support;
 
 use carom::export::TradeRow;
-use carom::measure::{BUDGET, Errors, Miss, Reference, Rung, Subject, choose, errors};
+use carom::measure::{Budget, Errors, Miss, Reference, Rung, Subject, choose, errors};
 use carom::physics::{Method, Scene};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
@@ -35,7 +35,7 @@ fn drop_from(height: f64, contact: ContactLaw, duration: f64) -> Scene {
 }
 
 fn reference(scene: &Scene) -> Reference {
-    Reference::of(scene, scene.duration, BUDGET, ON).expect("nobody interrupts")
+    Reference::of(scene, scene.duration, Budget::REFERENCE, ON).expect("nobody interrupts")
 }
 
 fn errors_of(scene: &Scene, dt: f64, tolerance: f64) -> Errors {
@@ -128,14 +128,21 @@ fn a_tunnelled_run_is_told_by_its_note() {
 }
 
 #[test]
-fn a_reference_beyond_its_budget_ends_there_and_says_so() {
-    // A box this narrow is crossed 20 times a second: ten thousand impacts and more in 1000 s.
+fn where_exact_passes_its_budget_the_finest_moreau_run_stands_in_and_every_row_says_so() {
+    // A box this narrow is crossed 20 times a second: two hundred impacts in 10 s.
     let walls = room(dvec3(-0.55, -5.0, -5.0), dvec3(0.55, 5.0, 5.0));
     let bodies = vec![sphere(DVec3::ZERO, DVec3::X * 2.0, 0.5)];
-    let busy = Scene { duration: 1000.0, ..scene(DVec3::ZERO, ELASTIC, walls, bodies) };
-    let reference = Reference::of(&busy, 1000.0, 5000, ON).expect("nobody interrupts");
-    assert!(reference.end > 0.0 && reference.end < 1000.0, "{} s", reference.end);
-    assert!(reference.doubt.contains("exact passes its budget"), "{}", reference.doubt);
+    let busy = Scene { duration: 10.0, ..scene(DVec3::ZERO, ELASTIC, walls, bodies) };
+    let poor = Budget { work: 50, ..Budget::REFERENCE };
+    let reference = Reference::of(&busy, 10.0, poor, ON).expect("nobody interrupts");
+    assert_eq!((reference.settings.method, reference.end), (Method::Moreau, 10.0));
+    assert!(reference.doubt.contains("because exact passes its budget"), "{}", reference.doubt);
+    let subject = Subject { key: "busy".into(), scene: busy.clone(), reference };
+    let row =
+        subject.measure(Rung { method: Method::Exact, dt: None, tolerance: None }, ON).expect("nobody interrupts");
+    assert!(row.note.contains("reference is moreau dt 1e-4 because"), "{}", row.note);
+    let brief = Reference::brief(&busy, 10.0, poor, ON).expect("nobody interrupts");
+    assert!(brief.settings.method == Method::Exact && brief.end < 10.0, "{} s", brief.end);
 }
 
 #[test]

@@ -95,7 +95,7 @@ pub(super) struct Run {
     #[arg(long, value_name = "T", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     pub(super) until: Option<f64>,
     /// Time between two states, s [default: only the first and the last state]
-    #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", requires = "states", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) every: Option<f64>,
     /// Write times, positions and velocities; JSON lines if it ends in .jsonl, else CSV; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]

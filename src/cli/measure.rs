@@ -57,12 +57,12 @@ fn allowed(arguments: &Measure) -> Vec<Method> {
 }
 
 fn ladder(arguments: &Measure) -> Ladder {
-    let or = |list: &[f64], usual: Vec<f64>| if list.is_empty() { usual } else { list.to_vec() };
-    let usual = Ladder::default();
+    let listed = |list: &Vec<f64>| (!list.is_empty()).then(|| list.clone());
+    let all = || Method::ALL.to_vec();
     Ladder {
-        methods: if arguments.methods.is_empty() { usual.methods } else { arguments.methods.clone() },
-        dt: or(&arguments.dt, usual.dt),
-        tolerances: or(&arguments.tolerances, usual.tolerances),
+        methods: if arguments.methods.is_empty() { all() } else { arguments.methods.clone() },
+        dt: listed(&arguments.dt),
+        tolerances: listed(&arguments.tolerances),
     }
 }
 

@@ -25,6 +25,9 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     let until = arguments.until.unwrap_or(opened.scene.duration);
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, until, Some(signals))?;
     said.iter().for_each(|said| note(said));
+    for warning in scene::warnings(&opened.scene, settings) {
+        note(&format!("{}: {warning}", opened.key));
+    }
     let mut recorder = Recorder {
         simulation: Simulation::new(&opened.scene, settings),
         until,

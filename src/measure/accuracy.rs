@@ -6,15 +6,12 @@ use super::ladder::{Ladder, Rung};
 use super::reference::Reference;
 use super::report::{duration, plain, setting, short};
 use super::trade::errors;
-use super::walk::Cut;
+use super::walk::{Budget, Cut};
 use super::{GoOn, Interrupted};
 use crate::physics::{Method, Scene, Settings};
 
 /// Seconds on the wall that trying settings may take.
 const PATIENCE: f64 = 4.0;
-
-/// Events that the reference, and each run for its horizon, may take: about a second in all.
-const BUDGET: u64 = 200_000;
 
 /// A setting that meets the error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +67,7 @@ pub fn choose(
     fallback: Settings,
     go_on: GoOn,
 ) -> Result<Choice, Miss> {
-    let reference = Reference::brief(scene, until, BUDGET, go_on)?;
+    let reference = Reference::brief(scene, until, Budget::BRIEF, go_on)?;
     if reference.meaningful() <= 0.0 && until > 0.0 {
         let reason = "there is no reference: exact does not get beyond t = 0";
         return Err(Miss::Nothing(format!("no accuracy can be measured here; {reason}")));

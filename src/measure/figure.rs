@@ -80,9 +80,11 @@ fn panel(rows: &[TradeRow], allowed: &[Method], svg: &mut String) {
     frame(&axes, svg);
     words(rows, &axes, svg);
     steps(rows, &best, &axes, svg);
-    for (index, row) in rows.iter().enumerate() {
-        if let Some(place) = axes.point(row) {
-            marker(&row.method, place, best.contains(&index), &tip(row), svg);
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by_key(|index| best.contains(index)); // the front last: nothing covers it
+    for index in order {
+        if let Some(place) = axes.point(&rows[index]) {
+            marker(&rows[index].method, place, best.contains(&index), &tip(&rows[index]), svg);
         }
     }
     legend(rows, svg);
@@ -193,9 +195,8 @@ fn legend(rows: &[TradeRow], svg: &mut String) {
         let y = line(name, svg);
         marker(name, (left, y), false, "", svg);
     }
-    let y = line("filled, line:", svg);
+    let y = line("the front (filled)", svg);
     let _ = writeln!(svg, r##"<path stroke="#555555" stroke-width="1.5" d="M{} {y}h16"/>"##, left - 8.0);
-    line("the front", svg);
 }
 
 fn escape(text: &str) -> String {

@@ -51,12 +51,12 @@ pub use figure::figure;
 pub use front::{Cheapest, cheapest, front};
 pub use horizon::Horizon;
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
-pub use reference::{BUDGET, Reference};
+pub use reference::Reference;
 pub use report::report;
 pub use shard::{Placed, Shard, merge};
 pub use sweep::{Advance, Measured, Sweep, Yardstick};
 pub use trade::{Errors, Subject, errors};
-pub use walk::{Cut, Impact, Instants, Walk, walk};
+pub use walk::{Budget, Cut, Impact, Instants, Walk, walk};
 
 /// Asked every few milliseconds whether to go on; from several threads at once.
 pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);

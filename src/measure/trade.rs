@@ -6,7 +6,7 @@ use super::cost::{Cost, cost};
 use super::deviation::{Deviation, common_impacts, impact_time_error};
 use super::ladder::Rung;
 use super::reference::Reference;
-use super::walk::{Cut, Instants, Walk, walk};
+use super::walk::{Budget, Cut, Instants, Walk, walk};
 use super::{GoOn, Interrupted};
 use crate::export::TradeRow;
 use crate::physics::{Scene, Settings, Simulation};
@@ -54,7 +54,7 @@ pub fn errors(
     let model = simulation.model().clone();
     let (meaningful, judged) = (reference.meaningful(), judged(reference));
     let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
-    let walk = walk(&mut simulation, reference.instants, u64::MAX, go_on, |k, state| {
+    let walk = walk(&mut simulation, reference.instants, Budget::UNLIMITED, go_on, |k, state| {
         if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
             compared = state.t;
             let now = Deviation::between(&state.x, wanted);
@@ -100,7 +100,7 @@ impl Subject {
     /// # Errors
     /// If `go_on` says no.
     pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
-        let reference = Reference::of(&scene, scene.duration, super::reference::BUDGET, go_on)?;
+        let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
         Ok(Subject { key: key.into(), scene, reference })
     }
 
