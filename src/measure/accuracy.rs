@@ -68,9 +68,9 @@ pub fn choose(
     go_on: GoOn,
 ) -> Result<Choice, Miss> {
     let reference = Reference::brief(scene, until, Budget::BRIEF, go_on)?;
-    if reference.meaningful() <= 0.0 && until > 0.0 {
-        let reason = "there is no reference: exact does not get beyond t = 0";
-        return Err(Miss::Nothing(format!("no accuracy can be measured here; {reason}")));
+    if reference.meaningful() <= 0.0 {
+        let reason = if until > 0.0 { "exact does not get beyond t = 0" } else { "the run lasts 0 s" };
+        return Err(Miss::Nothing(format!("no accuracy can be measured here: {reason}")));
     }
     let deadline = Deadline::after(PATIENCE);
     let patient = || go_on() && !deadline.is_past();

@@ -131,15 +131,14 @@ fn sentences(rows: &[TradeRow], best: &[usize]) -> String {
     let mut text = String::new();
     for found in cheapest(rows, best) {
         let row = &rows[found.row];
-        let range = if found.from == found.to {
-            format!("{:e} m", found.to)
-        } else {
-            format!("{:e} to {:e} m", found.from, found.to)
+        let range = match (found.from, found.to) {
+            (from, to) if from == to => format!("an error up to {to:e} m"),
+            (from, to) => format!("errors of {from:e} down to {to:e} m"),
         };
         let (cost, error) = (row.cpu_per_s.map(duration).unwrap_or_default(), row.position_error.unwrap_or(0.0));
         let _ = writeln!(
             text,
-            "Cheapest for an error up to {range}: {};\n  {cost} per simulated second, error {} m.",
+            "Cheapest for {range}: {};\n  {cost} per simulated second, error {} m.",
             setting(&row.method, row.dt, row.tolerance),
             short(error, 1),
         );

@@ -65,23 +65,11 @@ fn lines_of(path: &str) -> Vec<String> {
 fn the_report_has_a_table_a_chart_and_the_cheapest_settings_within_80_columns() {
     let folder = folder();
     let svg = in_folder(&folder, "trade.svg");
-    let report = carom(&[
-        "measure",
-        "paper-0",
-        "--dt",
-        "1e-2,1e-3",
-        "--tolerances",
-        "1e-3",
-        "--methods",
-        "paper,exact,moreau,swept",
-        "--svg",
-        &svg,
-    ])
-    .succeeds()
-    .out;
-    for words in
-        ["paper-0: 20 s; horizon none", "* paper", "position error, m", "Cheapest for an error up to 1e-1 m: paper"]
-    {
+    let methods = "--methods=paper,exact,moreau,swept";
+    let grid = ["measure", "paper-0", "--dt=1e-2,1e-3", "--tolerances=1e-3", methods, "--svg", &svg];
+    let report = carom(&grid).succeeds().out;
+    let cheapest = "Cheapest for errors of 1e0 down to 1e-16 m: exact";
+    for words in ["paper-0: 20 s; horizon none", "* exact", "position error, m", cheapest, "s swept"] {
         assert!(report.contains(words), "{words:?} is not in\n{report}");
     }
     assert!(report.lines().all(|line| line.chars().count() <= 80), "{report}");
