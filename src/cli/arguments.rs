@@ -37,6 +37,8 @@ pub(super) enum Command {
     Run(Run),
     /// Print one frame of the screen
     Render(Render),
+    /// Measure known results of physics and mathematics on this machine
+    Verify(Verify),
     /// Print the completions for a shell
     Completions(Completions),
     /// Print the manual page
@@ -120,6 +122,13 @@ pub(super) struct Render {
     pub(super) solver: Solver,
     #[command(flatten)]
     pub(super) display: Display,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Verify {
+    /// Some seconds instead of some minutes: fewer digits, fewer spheres
+    #[arg(long)]
+    pub(super) quick: bool,
 }
 
 #[derive(Debug, Args)]

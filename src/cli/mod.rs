@@ -23,6 +23,7 @@ mod render;
 mod run;
 mod show;
 mod signals;
+mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -63,6 +64,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
+        Command::Verify(arguments) => verify::verify(arguments, signals),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }
