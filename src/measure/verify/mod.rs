@@ -14,7 +14,11 @@
 mod bodies;
 mod bounces;
 mod chains;
+mod cooling;
+mod gas;
 mod lab;
+mod mixture;
+mod pressure;
 mod statistics;
 mod steps;
 pub mod table;
@@ -38,7 +42,16 @@ pub struct Check {
 }
 
 /// Every family, in the order in which they are told.
-pub const CHECKS: &[Check] = &[bounces::CHECK, chains::DIGITS, chains::CRADLE, steps::ORDER, steps::TUNNELLING];
+pub const CHECKS: &[Check] = &[
+    bounces::CHECK,
+    chains::DIGITS,
+    chains::CRADLE,
+    steps::ORDER,
+    steps::TUNNELLING,
+    pressure::CHECK,
+    cooling::CHECK,
+    mixture::CHECK,
+];
 
 impl Check {
     /// Measures its rows; never empty.
