@@ -15,11 +15,11 @@ use crate::measure::verify::{self, CHECKS, Depth, Lab, Outcome, Row, table};
 pub(super) fn verify(arguments: &Verify, signals: &Signals) -> Result<(), Failure> {
     let depth = if arguments.quick { Depth::Quick } else { Depth::Whole };
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let stop = || signals.check().is_err();
+    let go_on = || signals.check().is_ok();
     let mut book = Book::open()?;
     let mut told = Ok(());
-    verify::verify(Lab::new(depth, &stop), threads, |outcome| {
-        if told.is_ok() && !stop() {
+    verify::verify(Lab::new(depth, &go_on), threads, |outcome| {
+        if told.is_ok() && go_on() {
             told = book.enter(outcome);
         }
     });

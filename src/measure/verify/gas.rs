@@ -34,9 +34,9 @@ pub(super) fn gas(packing: f64, count: usize, masses: &[f64]) -> Result<Scene, T
     scene::parse(&text, "gas").map_err(|error| Trouble::Failed(error.to_string()))
 }
 
-/// Edge of the cube, m.
+/// Edge of the cube, m; in millimetres, so that a machine's own cube root does not show.
 pub(super) fn side(packing: f64, count: usize) -> f64 {
-    (count as f64 * PI * SIGMA * SIGMA * SIGMA / (6.0 * packing)).cbrt()
+    ((count as f64 * PI * SIGMA * SIGMA * SIGMA / (6.0 * packing)).cbrt() * 1000.0).round() / 1000.0
 }
 
 /// The scene at another moment, under another law of contact.

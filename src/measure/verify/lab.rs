@@ -2,9 +2,10 @@
 
 use std::fmt;
 
+use crate::measure::{GoOn, Interrupted};
 use crate::physics::{Progress, Simulation, State, Until};
 
-/// Units of work between two looks at whether to stop: some milliseconds. No bit of a result depends on it.
+/// Units of work between two looks at whether to go on: some milliseconds. No bit of a result depends on it.
 const SLICE: u64 = 20_000;
 
 /// Slices after which a run counts as one that never ends: fifty times what the longest one here needs.
@@ -57,15 +58,21 @@ impl Row {
 pub enum Trouble {
     /// The method gave up, or the scene was refused: a full sentence.
     Failed(String),
-    /// The user asked to stop.
-    Stopped,
+    /// It was not to go on.
+    Interrupted,
+}
+
+impl From<Interrupted> for Trouble {
+    fn from(_: Interrupted) -> Trouble {
+        Trouble::Interrupted
+    }
 }
 
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Trouble::Failed(sentence) => f.write_str(sentence),
-            Trouble::Stopped => f.write_str("stopped"),
+            Trouble::Interrupted => f.write_str("It was interrupted."),
         }
     }
 }
@@ -74,7 +81,7 @@ impl fmt::Display for Trouble {
 #[derive(Clone, Copy)]
 pub struct Lab<'a> {
     depth: Depth,
-    stop: &'a (dyn Fn() -> bool + Sync),
+    go_on: GoOn<'a>,
 }
 
 impl fmt::Debug for Lab<'_> {
@@ -84,9 +91,9 @@ impl fmt::Debug for Lab<'_> {
 }
 
 impl<'a> Lab<'a> {
-    /// A place to measure at this depth, until `stop` says so: it is asked every few milliseconds.
-    pub fn new(depth: Depth, stop: &'a (dyn Fn() -> bool + Sync)) -> Lab<'a> {
-        Lab { depth, stop }
+    /// A place to measure at this depth, as long as `go_on` says so.
+    pub fn new(depth: Depth, go_on: GoOn<'a>) -> Lab<'a> {
+        Lab { depth, go_on }
     }
 
     /// The one or the other, by depth.
@@ -100,11 +107,11 @@ impl<'a> Lab<'a> {
     /// Advances until a frame holds `until` (s); the state then.
     ///
     /// # Errors
-    /// If the run stalls or never gets there, or the user asks to stop.
+    /// If the run stalls or never gets there, or it is not to go on.
     pub(super) fn go(&self, run: &mut Simulation, until: f64) -> Result<State, Trouble> {
         for _ in 0..MOST_SLICES {
-            if (self.stop)() {
-                return Err(Trouble::Stopped);
+            if !(self.go_on)() {
+                return Err(Interrupted.into());
             }
             match run.advance(Until::Time(until), SLICE) {
                 Progress::Reached => return Ok(run.at(until)),

@@ -16,9 +16,12 @@ mod bounces;
 mod chains;
 mod cooling;
 mod gas;
+mod golden;
 mod lab;
 mod mixture;
 mod pressure;
+mod rest;
+mod reversal;
 mod statistics;
 mod steps;
 pub mod table;
@@ -27,6 +30,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
+pub use golden::{GOLDEN, Golden};
 pub use lab::{Depth, Lab, Row, Trouble};
 
 /// A family of known results that are measured together.
@@ -46,18 +50,22 @@ pub const CHECKS: &[Check] = &[
     bounces::CHECK,
     chains::DIGITS,
     chains::CRADLE,
-    steps::ORDER,
-    steps::TUNNELLING,
     pressure::CHECK,
     cooling::CHECK,
     mixture::CHECK,
+    steps::DT,
+    steps::TOLERANCE,
+    steps::TUNNELLING,
+    reversal::CHECK,
+    rest::CHECK,
+    golden::CHECK,
 ];
 
 impl Check {
     /// Measures its rows; never empty.
     ///
     /// # Errors
-    /// If a run stalls or the user asks to stop.
+    /// If a run stalls, or the lab is not to go on.
     pub fn rows(&self, lab: &Lab) -> Result<Vec<Row>, Trouble> {
         (self.measure)(lab)
     }

@@ -5,7 +5,10 @@ use super::{Check, Row};
 /// Columns of every line.
 const WIDTH: usize = 80;
 
-/// Significant digits of a value, less one: as many as fit between the neighbours.
+/// Columns of a value.
+const VALUE: usize = 12;
+
+/// Most significant digits of a value, less one.
 const DIGITS: usize = 7;
 
 /// The head of the table, a line and a rule.
@@ -43,15 +46,22 @@ pub fn notes(checks: &[Check]) -> String {
 }
 
 fn line(number: &str, what: &str, [expected, found, error, allowed]: [&str; 4], verdict: &str) -> String {
-    let text = format!("{number:>2}  {what:<28}{expected:>12} {found:>12} {error:>8} {allowed:>8} {verdict}");
+    let text = format!("{number:>2}  {what:<28}{expected:>VALUE$} {found:>VALUE$} {error:>8} {allowed:>8} {verdict}");
     text.trim_end().to_string()
 }
 
+/// With as many digits as fit.
 fn value(value: f64, unit: &str) -> String {
     if value.is_nan() {
         return "none".into();
     }
-    let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+    let texts = (0..=DIGITS).rev().map(|digits| rounded(value, unit, digits));
+    texts.clone().find(|text| text.chars().count() <= VALUE).or_else(|| texts.last()).unwrap_or_default()
+}
+
+/// To so many digits after the first.
+fn rounded(value: f64, unit: &str, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.digits$e}").parse().unwrap_or(value);
     let plain = rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs());
     let text = if plain { format!("{rounded}") } else { format!("{rounded:e}") };
     format!("{text} {unit}").trim_end().to_string()
