@@ -134,9 +134,11 @@ fn elastic_runs_go_back_the_way_they_came() {
     for (k, tolerance) in [(0, 1e-12), (2, 1e-11)] {
         let scene = Scene { contact: ELASTIC, ..paper_scene(k) };
         let there = whole(&scene, 10.0, 0.1);
-        let back = whole(&reversed(&scene, &there), 10.0, 0.1);
-        for (i, body) in scene.spheres.iter().enumerate() {
-            let error = back.x[i].distance(body.x).max(back.v[i].distance(-body.v));
+        // A millisecond short of the start, where some touch a wall: the impact on it may be due or not, by rounding.
+        let back = whole(&reversed(&scene, &there), 9.999, 0.1);
+        let start = whole(&scene, 0.001, 0.1);
+        for i in 0..scene.spheres.len() {
+            let error = back.x[i].distance(start.x[i]).max(back.v[i].distance(-start.v[i]));
             assert!(error <= tolerance, "paper-{k}, sphere {i}: returns {error:e} m or m/s off");
         }
         let run = Simulation::new(&scene, exact(1.0));

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
+use super::flight::Line;
 use super::rest::ROUNDING;
 use crate::physics::contact::Key;
-use crate::physics::contact_time::{Path, curvature, pair_normal_velocity, touch};
+use crate::physics::contact_time::{Part, Path, curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
@@ -31,6 +32,9 @@ pub(super) const HOP: f64 = 4.0 * f64::EPSILON;
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 const SMALL_HOP: f64 = 1e-12;
+
+/// A sphere this many radii from a face has just touched it.
+const SMALL_GAP: f64 = 1e-9;
 
 /// Normal velocities below this share of the speed may be those of a sphere that slides.
 const SLOW: f64 = 1e-6;
@@ -61,6 +65,8 @@ pub(super) struct Meeting {
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
     a_n: f64,
+    /// Whether that stays so as the bodies move: the face of a wall.
+    flat: bool,
 }
 
 impl Meeting {
@@ -81,6 +87,21 @@ impl Meeting {
             class,
         }
     }
+}
+
+/// The first power eᵏ, k ≥ 1, that is at most `bound` < 1, for 0 ≤ e < 1; 0 if `bound` is.
+fn first_power_below(e: f64, bound: f64) -> f64 {
+    if bound <= 0.0 || e <= bound {
+        return if bound <= 0.0 { 0.0 } else { e };
+    }
+    // e, e², e⁴ …: as many as are above the bound, at most 53 + 11 of them
+    let mut squares = vec![e];
+    while let Some(&last) = squares.last().filter(|&&last| last * last > bound) {
+        squares.push(last * last);
+    }
+    let above =
+        squares.iter().rev().fold(1.0, |power, square| if power * square > bound { power * square } else { power });
+    above * e
 }
 
 impl Exact {
@@ -161,7 +182,8 @@ impl Exact {
                 let slow = v_n.abs() <= SLOW * path.v.length();
                 let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
                 let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
-                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
+                let flat = part == Part::Face && at.part == part;
+                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
             }
             Kind::Pair => {
                 let other = self.flight.path(b, self.now);
@@ -172,14 +194,16 @@ impl Exact {
                 let across = relative.v - normal * v_n;
                 let a_n = normal.dot(relative.a) + across.length_squared() / distance;
                 let point = other.x + normal * (model.radii[b] + 0.5 * gap);
-                Meeting { key, point, normal, gap, reach, v_n, a_n }
+                Meeting { key, point, normal, gap, reach, v_n, a_n, flat: false }
             }
         }
     }
 
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let meeting = self.meeting(model, key);
+        let before = self.flight.lines[key.1];
+        let mut meeting = self.meeting(model, key);
+        self.keep_energy(model, &before, &mut meeting);
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest if self.brushes(&meeting) => {
@@ -238,16 +262,36 @@ impl Exact {
         class
     }
 
+    /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
+    /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
+    /// 1e-5 of it each, and the time that they take.
+    fn keep_energy(&mut self, model: &Model, before: &Line, meeting: &mut Meeting) {
+        let (_, sphere, wall) = meeting.key;
+        if !meeting.flat || meeting.v_n >= 0.0 || meeting.a_n >= 0.0 || before.t == self.now {
+            return;
+        }
+        let (then, w) = (touch(&model.faces[wall], before.x, before.r), before.v.dot(meeting.normal));
+        let square = w * w + 2.0 * meeting.a_n * (meeting.gap - then.gap);
+        let came_from_it = then.part == Part::Face && then.gap.abs() <= SMALL_GAP * before.r;
+        if w <= 0.0 || square <= 0.0 || !came_from_it {
+            return;
+        }
+        let v_n = -square.sqrt();
+        self.push(sphere, meeting.normal * (v_n - meeting.v_n));
+        meeting.v_n = v_n;
+    }
+
     /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
-    /// flights, 2 e |v_n| / (g_n (1 − e)). Only where they change nothing but the height, and where no rest speed ends
-    /// them before.
+    /// flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests. Only where they change nothing but
+    /// the height.
     fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
         let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.key.0 == Kind::Wall && law.tangential == 1.0 && e < 1.0;
+        let closed_form = meeting.flat && law.tangential == 1.0 && e < 1.0;
         if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
             return 0.0;
         }
-        2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
+        let last = first_power_below(e, law.rest_speed / -meeting.v_n);
+        2.0 * -meeting.v_n * e * (1.0 - last) / (-meeting.a_n * (1.0 - e))
     }
 
     /// Rounding of the clock, s.
@@ -284,7 +328,12 @@ impl Exact {
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
         log.contacts.push(row);
         log.event(row);
-        self.follow_up(model, log, meeting.key)
+        self.follow_up(model, log, meeting.key)?;
+        if target == 0.0 && meeting.a_n < 0.0 {
+            // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
+            self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, self.now);
+        }
+        Ok(())
     }
 
     /// The bodies of a contact have got new velocities: rests that this breaks end, and what comes next is predicted.
@@ -368,5 +417,29 @@ impl Exact {
             self.now
         );
         Err(Stall { time: self.now, kind: "non-finite", reason })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_power_below;
+
+    #[test]
+    fn the_first_power_below_a_bound_is_the_one_that_counting_finds() {
+        for e in [0.0, 1e-3, 0.3, 0.5, 0.8, 0.99, 0.9999] {
+            for bound in [0.999_999, 0.5, 0.25, 0.1, 1e-3, 1e-12] {
+                let mut power: f64 = e;
+                let mut count = 1;
+                while power > bound {
+                    power *= e;
+                    count += 1;
+                }
+                let found = first_power_below(e, bound);
+                // Each product rounds.
+                assert!((found - power).abs() <= f64::from(count) * f64::EPSILON * power, "{e}, {bound}: {found}");
+            }
+        }
+        assert_eq!(first_power_below(0.999, 0.0), 0.0);
+        assert!(first_power_below(1.0 - f64::EPSILON, 1e-300) <= 1e-300, "and it does not count for ever");
     }
 }
