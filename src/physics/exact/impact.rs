@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use super::flight::Line;
-use super::rest::ROUNDING;
+use super::bounce::along;
 use crate::physics::contact::Key;
-use crate::physics::contact_time::{Part, Path, curvature, pair_normal_velocity, touch};
+use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
@@ -33,9 +32,6 @@ pub(super) const HOP: f64 = 4.0 * f64::EPSILON;
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 const SMALL_HOP: f64 = 1e-12;
 
-/// A sphere this many radii from a face has just touched it.
-const SMALL_GAP: f64 = 1e-9;
-
 /// Normal velocities below this share of the speed may be those of a sphere that slides.
 const SLOW: f64 = 1e-6;
 
@@ -59,14 +55,14 @@ pub(super) struct Meeting {
     pub(super) point: DVec3,
     pub(super) normal: DVec3,
     /// Gap, m, and what it is measured by: r, or r₁ + r₂.
-    gap: f64,
+    pub(super) gap: f64,
     reach: f64,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
-    a_n: f64,
+    pub(super) a_n: f64,
     /// Whether that stays so as the bodies move: the face of a wall.
-    flat: bool,
+    pub(super) flat: bool,
 }
 
 impl Meeting {
@@ -87,21 +83,6 @@ impl Meeting {
             class,
         }
     }
-}
-
-/// The first power eᵏ, k ≥ 1, that is at most `bound` < 1, for 0 ≤ e < 1; 0 if `bound` is.
-fn first_power_below(e: f64, bound: f64) -> f64 {
-    if bound <= 0.0 || e <= bound {
-        return if bound <= 0.0 { 0.0 } else { e };
-    }
-    // e, e², e⁴ …: as many as are above the bound, at most 53 + 11 of them
-    let mut squares = vec![e];
-    while let Some(&last) = squares.last().filter(|&&last| last * last > bound) {
-        squares.push(last * last);
-    }
-    let above =
-        squares.iter().rev().fold(1.0, |power, square| if power * square > bound { power * square } else { power });
-    above * e
 }
 
 impl Exact {
@@ -262,38 +243,6 @@ impl Exact {
         class
     }
 
-    /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
-    /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
-    /// 1e-5 of it each, and the time that they take.
-    fn keep_energy(&mut self, model: &Model, before: &Line, meeting: &mut Meeting) {
-        let (_, sphere, wall) = meeting.key;
-        if !meeting.flat || meeting.v_n >= 0.0 || meeting.a_n >= 0.0 || before.t == self.now {
-            return;
-        }
-        let (then, w) = (touch(&model.faces[wall], before.x, before.r), before.v.dot(meeting.normal));
-        let square = w * w + 2.0 * meeting.a_n * (meeting.gap - then.gap);
-        let came_from_it = then.part == Part::Face && then.gap.abs() <= SMALL_GAP * before.r;
-        if w <= 0.0 || square <= 0.0 || !came_from_it {
-            return;
-        }
-        let v_n = -square.sqrt();
-        self.push(sphere, meeting.normal * (v_n - meeting.v_n));
-        meeting.v_n = v_n;
-    }
-
-    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
-    /// flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests. Only where they change nothing but
-    /// the height.
-    fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
-        let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.flat && law.tangential == 1.0 && e < 1.0;
-        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
-            return 0.0;
-        }
-        let last = first_power_below(e, law.rest_speed / -meeting.v_n);
-        2.0 * -meeting.v_n * e * (1.0 - last) / (-meeting.a_n * (1.0 - e))
-    }
-
     /// Rounding of the clock, s.
     pub(super) fn tick(&self) -> f64 {
         let t = self.now.abs().max(CLOCK);
@@ -309,7 +258,7 @@ impl Exact {
             Kind::Wall => {
                 let v = self.flight.lines[a].v;
                 let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
-                self.push(a, meeting.normal * change + slip);
+                self.push(a, along(meeting.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
@@ -350,41 +299,8 @@ impl Exact {
         Ok(())
     }
 
-    /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
-    fn brushes(&self, meeting: &Meeting) -> bool {
-        let (kind, a, b) = meeting.key;
-        let path = |i: usize| self.flight.path(i, self.now);
-        let size = |of: fn(&Path) -> DVec3| {
-            of(&path(a)).length() + if kind == Kind::Pair { of(&path(b)).length() } else { 0.0 }
-        };
-        meeting.v_n >= -8.0 * f64::EPSILON * size(|path| path.v) && meeting.a_n > ROUNDING * size(|path| path.a)
-    }
-
-    /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
-    /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
-    fn turn_back(&mut self, model: &Model, meeting: &Meeting) {
-        let (kind, a, b) = meeting.key;
-        let change = -meeting.v_n + self.hop_speed(meeting).max(-meeting.v_n);
-        if kind == Kind::Wall {
-            self.push(a, meeting.normal * change);
-        } else {
-            let push = meeting.normal * (change / (model.inverse_masses[a] + model.inverse_masses[b]));
-            self.push(a, push * model.inverse_masses[a]);
-            self.push(b, push * -model.inverse_masses[b]);
-        }
-        self.part(model, meeting.key, 0.0);
-    }
-
-    /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
-    /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
-    fn hop_speed(&self, meeting: &Meeting) -> f64 {
-        let path = self.flight.path(meeting.key.1, self.now);
-        let pressing = (-meeting.normal.dot(path.a)).max(0.0);
-        f64::EPSILON * path.v.length() + self.tick() * pressing
-    }
-
     /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
-    fn push(&mut self, i: usize, change: DVec3) {
+    pub(super) fn push(&mut self, i: usize, change: DVec3) {
         let line = self.flight.lines[i];
         self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
@@ -417,29 +333,5 @@ impl Exact {
             self.now
         );
         Err(Stall { time: self.now, kind: "non-finite", reason })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::first_power_below;
-
-    #[test]
-    fn the_first_power_below_a_bound_is_the_one_that_counting_finds() {
-        for e in [0.0, 1e-3, 0.3, 0.5, 0.8, 0.99, 0.9999] {
-            for bound in [0.999_999, 0.5, 0.25, 0.1, 1e-3, 1e-12] {
-                let mut power: f64 = e;
-                let mut count = 1;
-                while power > bound {
-                    power *= e;
-                    count += 1;
-                }
-                let found = first_power_below(e, bound);
-                // Each product rounds.
-                assert!((found - power).abs() <= f64::from(count) * f64::EPSILON * power, "{e}, {bound}: {found}");
-            }
-        }
-        assert_eq!(first_power_below(0.999, 0.0), 0.0);
-        assert!(first_power_below(1.0 - f64::EPSILON, 1e-300) <= 1e-300, "and it does not count for ever");
     }
 }

@@ -6,6 +6,7 @@
 //! instant, islands of resting contacts are settled (`rest`). Reading never rewrites a line (`flight`), and frames only
 //! say where to pause: neither changes a bit of the trajectory.
 
+mod bounce;
 mod cells;
 mod curved;
 mod flight;
