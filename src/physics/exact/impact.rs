@@ -147,13 +147,13 @@ impl Exact {
         if kind == Kind::Pair {
             self.bring(b);
         }
-        self.seen(model, key)
+        self.seen(model, key, self.now)
     }
 
-    /// The same without touching the lines.
-    pub(super) fn seen(&self, model: &Model, key: Key) -> Meeting {
+    /// The same at `time` (s) without touching the lines.
+    pub(super) fn seen(&self, model: &Model, key: Key, time: f64) -> Meeting {
         let (kind, a, b) = key;
-        let path = self.flight.path(a, self.now);
+        let path = self.flight.path(a, time);
         match kind {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], model.radii[a]);
@@ -167,7 +167,7 @@ impl Exact {
                 Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
             }
             Kind::Pair => {
-                let other = self.flight.path(b, self.now);
+                let other = self.flight.path(b, time);
                 let relative = path.relative_to(&other);
                 let (reach, distance) = (model.radii[a] + model.radii[b], relative.x.length());
                 let (normal, gap) = (relative.x / distance, distance - reach);
@@ -313,7 +313,7 @@ impl Exact {
         let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
         let mut nudge = f64::EPSILON * self.flight.lines[i].v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             if meeting.v_n >= least || meeting.v_n.is_nan() {
                 return;
             }

@@ -166,7 +166,8 @@ impl Exact {
         log.probes.clear();
     }
 
-    fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
+    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
+        self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
         log.tallies.evaluations += std::mem::take(&mut self.evaluations);
@@ -186,11 +187,11 @@ impl Exact {
             return Ok(Turn::Event);
         }
         if !log.contacts.is_empty() && time > self.now && self.now > self.frame.time {
-            return Ok(self.close_frame(log, self.now));
+            return Ok(self.close_frame(model, log, self.now));
         }
         let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
         if time > end {
-            return Ok(self.close_frame(log, end));
+            return Ok(self.close_frame(model, log, end));
         }
         self.advance_clock(time, model.len())?;
         match rank.0 {
