@@ -27,7 +27,7 @@ impl<D: Detector> Exact<D> {
         }
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.lines[i].v.length() {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
@@ -39,7 +39,7 @@ impl<D: Detector> Exact<D> {
 
     fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
         if self.rests.drop(key) {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             let row = meeting.row(self.now, Class::Release, 0.0, meeting.v_n);
             log.contacts.push(row);
             log.event(row);
@@ -146,6 +146,7 @@ impl<D: Detector> Exact<D> {
             self.flight.accelerate(i, settled.a[place]);
         }
         self.announce(model, log, keys, &settled);
+        self.carry(keys, &settled.forces);
         let pick = |opening: bool| {
             let of = |(_, fate): &(&Key, &Fate)| (**fate == Fate::Opening) == opening;
             keys.iter().zip(&settled.fate).filter(of).map(|(&key, _)| key).collect::<Vec<Key>>()
@@ -194,7 +195,7 @@ impl<D: Detector> Exact<D> {
     /// Writes a `rest` row for every contact that begins to carry a load.
     fn announce(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
-            let mut meeting = self.seen(model, key);
+            let mut meeting = self.seen(model, key, self.now);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
             if settled.fate[index] != Fate::Loaded || held.announced || held.bounces_until > self.now {
                 continue;
