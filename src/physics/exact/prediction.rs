@@ -186,8 +186,7 @@ impl<D: Detector> Exact<D> {
             let t = straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach);
             t.map(|after| Due { after, sure: true })
         } else {
-            let relative = path.relative_to(&self.flight.path(j, self.now));
-            self.detector.pair(&relative, reach, self.span_before(plan.contact))
+            self.detector.pair(path, &self.flight.path(j, self.now), reach, self.span_before(plan.contact))
         };
         let Some(due) = found else { return 1 };
         self.offer(i, j, due, plan)

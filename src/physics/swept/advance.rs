@@ -27,6 +27,9 @@ const NEAR: f64 = 1e-3;
 /// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
 const HOP: f64 = 4.0 * f64::EPSILON;
 
+/// Normal velocities below this share of the bodies' speeds are rounding: 64 ulp.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Coarsest time scale at which rounding of the clock is ignored, s.
 const CLOCK: f64 = 1e-3;
 
@@ -55,8 +58,8 @@ impl Detector for Advance {
         self.search(&Wall { path, r, face }, span)
     }
 
-    fn pair(&self, path: &Path, reach: f64, span: Span) -> Option<Due> {
-        self.search(&Pair { path, reach }, span)
+    fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
+        self.search(&Pair::new(a, b, reach), span)
     }
 
     fn report(&mut self, start: f64, log: &mut Log) {
@@ -106,13 +109,12 @@ impl Advance {
         if gap > 0.0 {
             return quadratic_fall([gap + 0.5 * self.tolerance * sight.reach(), v_n, 0.5 * a_n]);
         }
-        // unless something presses it, it will never be deeper than it is
-        let pull = sight.pull();
-        if a_n >= 0.0 {
-            return None;
+        // unless something presses it, it will never be deeper than it is, but for rounding
+        let (pull, rounding) = (sight.pull(), HOP * sight.size());
+        if a_n >= 0.0 || v_n * v_n <= 2.0 * pull * rounding {
+            return quadratic_fall([rounding, v_n, 0.5 * a_n]);
         }
-        let rounding = HOP * sight.size();
-        if v_n * v_n <= 2.0 * pull * rounding { quadratic_fall([rounding, v_n, 0.5 * a_n]) } else { Some(v_n / pull) }
+        Some(v_n / pull)
     }
 
     /// The contact within a step (s from now) from outside to deeper than the tolerance.
@@ -149,9 +151,10 @@ fn wide_step(seen: Glance, near: f64) -> Option<f64> {
     quadratic_fall([seen.gap - 0.5 * near, seen.v_n, 0.5 * seen.a_n])
 }
 
-/// Whether the gap is about to shrink.
+/// Whether the gap is about to shrink. Where only rounding says so, what presses decides: of three spheres in a row that
+/// have stopped approaching each other, rounding would otherwise have the outer two push the middle one to and fro.
 fn closes(sight: &impl Sight, s: f64, seen: Glance) -> bool {
-    seen.v_n < 0.0 || (seen.v_n == 0.0 && sight.bend(s) < 0.0)
+    seen.v_n < 0.0 && seen.v_n < -ROUNDING * sight.speed(s) || seen.v_n <= 0.0 && sight.bend(s) < 0.0
 }
 
 /// A step after `s` (s from now), which the clock must be able to tell from it.
