@@ -153,19 +153,20 @@ fn thousands_of_spheres_are_sliced_within_a_trial_step_too() {
     assert_eq!(sliced.tallies(), whole.tallies());
 }
 
-/// Hashes of the state at the end of a run: scene, until (s), by `exact`, by `paper` in frames of 0.01 s.
+/// Hashes of the state at the end of a run: scene, until (s), by `exact`, by `paper` in frames of 0.01 s, by
+/// `swept`, both with tolerance 1e-3.
 ///
 /// Whatever a change of the arithmetic alters on purpose is to be entered anew from the failure's message; what must
 /// never differ is this between machines and optimisation levels, all of which compare with the same literals.
-const GOLDEN: [(&str, f64, u64, u64); 8] = [
-    ("paper-0", 12.0, 0x527cf638f1094ce1, 0x1bd190d4d0ebd010),
-    ("paper-1", 8.0, 0xd2e74081c9f9e226, 0xdd7d795d15911912),
-    ("paper-2", 10.0, 0x531f07c3b811bbb3, 0x008eeb07a92d2862),
-    ("paper-3", 8.0, 0x03995f048bf63418, 0x971ee35912911934),
-    ("paper-4", 5.0, 0x374004480e69c939, 0x6b2e8fda467cfcfd),
-    ("zeno", 10.0, 0x82fb254f7e1943ac, 0xb8af2fe4bdf32a64),
-    ("corner", 5.0, 0x3eec042be14d8c25, 0x7c76e6a0e19ddf14),
-    ("newtons-cradle", 20.0, 0xb11436696990f1fd, 0x96ddd5673680961a),
+const GOLDEN: [(&str, f64, u64, u64, u64); 8] = [
+    ("paper-0", 12.0, 0x527cf638f1094ce1, 0x1bd190d4d0ebd010, 0xa137e8ff3e90a52b),
+    ("paper-1", 8.0, 0xd2e74081c9f9e226, 0xdd7d795d15911912, 0xd65c6e882ce647c2),
+    ("paper-2", 10.0, 0x531f07c3b811bbb3, 0x008eeb07a92d2862, 0x8fa54d2a91cb7374),
+    ("paper-3", 8.0, 0x03995f048bf63418, 0x971ee35912911934, 0x78fd894993a8725b),
+    ("paper-4", 5.0, 0x374004480e69c939, 0x6b2e8fda467cfcfd, 0x0a66b492c31557c5),
+    ("zeno", 10.0, 0x82fb254f7e1943ac, 0xb8af2fe4bdf32a64, 0x493bf24071c0e98d),
+    ("corner", 5.0, 0x3eec042be14d8c25, 0x7c76e6a0e19ddf14, 0x9f292e70b02e99fd),
+    ("newtons-cradle", 20.0, 0xb11436696990f1fd, 0x96ddd5673680961a, 0xf497d6449d8523b6),
 ];
 
 #[test]
@@ -179,9 +180,11 @@ fn every_build_makes_these_bits() {
             run.at(until).hash()
         };
         let by_frames = end(paper(0.01, 1e-3));
-        found.push((name, until, end(Settings { method: Method::Exact, ..paper(0.01, 1e-3) }), by_frames));
+        let by = |method| end(Settings { method, ..paper(0.01, 1e-3) });
+        found.push((name, until, by(Method::Exact), by_frames, by(Method::Swept)));
     }
-    let list: Vec<_> = found.iter().map(|(n, t, e, p)| format!("    ({n:?}, {t:?}, {e:#018x}, {p:#018x}),")).collect();
+    let list: Vec<_> =
+        found.iter().map(|(n, t, e, p, s)| format!("    ({n:?}, {t:?}, {e:#018x}, {p:#018x}, {s:#018x}),")).collect();
     assert!(found == GOLDEN, "this build makes\n{}\ninstead of\n{GOLDEN:x?}", list.join("\n"));
 }
 

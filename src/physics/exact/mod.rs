@@ -176,7 +176,7 @@ impl<D: Detector> Exact<D> {
     }
 
     fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
-        self.detector.report(self.frame.time, log);
+        self.detector.report(self.frame.time, end, log);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
         log.tallies.evaluations += std::mem::take(&mut self.evaluations);

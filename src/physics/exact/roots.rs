@@ -27,5 +27,5 @@ impl Detector for Roots {
         sphere_sphere(&a.relative_to(b), reach, span.before).map(|after| Due { after, sure: true })
     }
 
-    fn report(&mut self, _: f64, _: &mut Log) {}
+    fn report(&mut self, _: f64, _: f64, _: &mut Log) {}
 }

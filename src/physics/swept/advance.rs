@@ -42,7 +42,7 @@ pub(in crate::physics) struct Advance {
     /// Deepest overlap accepted, dimensionless.
     tolerance: f64,
     evaluations: Cell<u64>,
-    /// Close looks: when, s, and the degree seen.
+    /// Close looks not yet told: when, s, and the degree seen.
     probes: RefCell<Vec<(f64, f64)>>,
 }
 
@@ -59,14 +59,25 @@ impl Detector for Advance {
     }
 
     fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
-        self.search(&Pair::new(a, b, reach), span)
+        let pair = Pair::new(a, b, reach);
+        if pair.parts_for_good() {
+            self.count();
+            return None;
+        }
+        self.search(&pair, span)
     }
 
-    fn report(&mut self, start: f64, log: &mut Log) {
+    fn report(&mut self, start: f64, end: f64, log: &mut Log) {
         log.tallies.evaluations += self.evaluations.take();
-        let probes = self.probes.get_mut();
-        log.tallies.probes += probes.len() as u64;
-        log.probes.extend(probes.drain(..).map(|(time, degree)| Probe { step: time - start, degree }));
+        let before = log.probes.len();
+        self.probes.get_mut().retain(|&(time, degree)| {
+            // what was seen of later frames is told in theirs
+            if time <= end {
+                log.probes.push(Probe { step: time - start, degree });
+            }
+            time > end
+        });
+        log.tallies.probes += (log.probes.len() - before) as u64;
     }
 }
 
@@ -94,7 +105,9 @@ impl Advance {
                 return Some(Due { after: s, sure: false });
             }
             if !wide {
-                self.note(sight, span.now + s, seen);
+                if seen.gap <= 2.0 * near {
+                    self.note(sight, span.now + s, seen);
+                }
                 if seen.gap < -self.tolerance * sight.reach() && last < s && closes(sight, s, seen) {
                     return Some(Due { after: self.halve(sight, span.now, [last, s]), sure: true });
                 }

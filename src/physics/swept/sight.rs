@@ -85,6 +85,12 @@ impl<'a> Pair<'a> {
     pub(super) fn new(a: &'a Path, b: &'a Path, reach: f64) -> Pair<'a> {
         Pair { paths: [a, b], path: a.relative_to(b), reach }
     }
+
+    /// Whether two spheres that part go on doing so: without relative acceleration, distances are convex in time. The
+    /// answer for half of all pairs, without a root.
+    pub(super) fn parts_for_good(&self) -> bool {
+        self.path.a == DVec3::ZERO && self.path.x.dot(self.path.v) >= 0.0
+    }
 }
 
 impl Sight for Pair<'_> {
