@@ -11,8 +11,10 @@ pub mod contact;
 pub mod contact_time;
 mod detector;
 mod exact;
+mod knobs;
 mod log;
 pub mod model;
+mod moreau;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
@@ -25,6 +27,7 @@ pub mod support;
 mod swept;
 
 pub use contact::{Class, Contact, Kind, Probe};
+pub use knobs::{Knobs, knobs};
 use log::Log;
 pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
 pub use requirements::Requirements;
@@ -73,6 +76,7 @@ pub fn describe(method: Method) -> &'static Description {
         Method::Paper => &paper::DESCRIPTION,
         Method::Swept => &swept::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
+        Method::Moreau => &moreau::DESCRIPTION,
     }
 }
 
@@ -110,6 +114,8 @@ enum Engines {
     Swept(exact::Exact<swept::Advance>),
     /// Event by event, contact times by roots.
     Exact(exact::Exact<exact::Roots>),
+    /// Velocity-level time-stepping.
+    Moreau(moreau::Moreau),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -119,6 +125,7 @@ macro_rules! each {
             Engines::Paper($engine) => $call,
             Engines::Swept($engine) => $call,
             Engines::Exact($engine) => $call,
+            Engines::Moreau($engine) => $call,
         }
     };
 }
@@ -129,6 +136,7 @@ impl Engines {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
             Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
+            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
         }
     }
 }

@@ -91,11 +91,13 @@ pub enum Method {
     Swept,
     /// Event-driven: parabolas between contacts whose times are computed; no time step.
     Exact,
+    /// Moreau–Jean: all contacts of a frame as one complementarity problem.
+    Moreau,
 }
 
 impl Method {
     /// Every method, in the order in which `m` cycles through them.
-    pub const ALL: &'static [Method] = &[Method::Paper, Method::Swept, Method::Exact];
+    pub const ALL: &'static [Method] = &[Method::Paper, Method::Swept, Method::Exact, Method::Moreau];
 
     /// The word used in scene files, options and columns.
     pub const fn name(self) -> &'static str {
@@ -103,6 +105,7 @@ impl Method {
             Method::Paper => "paper",
             Method::Swept => "swept",
             Method::Exact => "exact",
+            Method::Moreau => "moreau",
         }
     }
 
