@@ -17,7 +17,9 @@ fn main() {
     let arguments: Vec<f64> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let scene = open("inelastic-666");
     println!("inelastic-666, 10 s: penetration over pairs and ground at the ends of frames, gaps of resting contacts");
-    println!("    dt  tolerance  CPU, s (worst)  mean Σ pen², m²  deepest, m  widest gap, m  rows solved  gaps computed  unconverged");
+    println!(
+        "    dt  tolerance  CPU, s (worst)  mean Σ pen², m²  deepest, m  widest gap, m  rows solved  gaps computed  unconverged"
+    );
     let given = scene.solver;
     match arguments[..] {
         [dt, tolerance] => measure(&scene, Settings { method: Method::Moreau, dt, tolerance }),

@@ -112,6 +112,8 @@ pub(super) struct Row {
     pub(super) normal: DVec3,
     /// c, m/s.
     pub(super) offset: f64,
+    /// c without a rebound, way / h, m/s.
+    pub(super) reached: f64,
     /// −v_n that the impact law saw, m/s.
     pub(super) approach: f64,
     pub(super) class: Class,
@@ -175,6 +177,7 @@ impl Row {
             normal: meeting.normal,
             // v_n⁺ ≥ e · approach, or closing no more than the way that is left.
             offset: if speeds.struck && e > 0.0 { -e * speeds.approach } else { reached },
+            reached,
             approach: speeds.approach,
             class: if speeds.struck { Class::Collide } else { Class::Rest },
             slack: share.min(terms.tolerance * path.size() / terms.h).max(rounding),

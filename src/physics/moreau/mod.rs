@@ -7,7 +7,8 @@
 //! c of a contact is gap / h, so that bodies may come as near as they are apart and no nearer: nothing overlaps but by
 //! what the solver leaves undone. Bodies that approach faster than `rest_speed` rebound instead from where they are,
 //! c = e v_n (Newton's law in Moreau's form, v_n at the start of the frame); against a wall they lose their share of
-//! the tangential velocity first. A contact that held in the last frame does not collide.
+//! the tangential velocity first. A contact that held in the last frame does not collide. No rebound adds kinetic
+//! energy to the spheres that it concerns.
 //!
 //! Rows are found from the free velocities and looked for again with the solution: what a struck sphere reaches in the
 //! same frame becomes a row too, until nothing new is met. So nothing passes through anything at any speed.
@@ -27,7 +28,9 @@ use glam::DVec3;
 use super::contact::Key;
 use super::log::Log;
 use super::overlap::{self, Finder};
-use super::{Class, Contact, Description, Engine, Kind, Method, Model, Progress, Settings, Stall, State, Until, motion};
+use super::{
+    Class, Contact, Description, Engine, Kind, Method, Model, Progress, Settings, Stall, State, Until, motion,
+};
 use frame::Stage;
 use meeting::Row;
 use search::Search;

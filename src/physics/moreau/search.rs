@@ -56,15 +56,7 @@ impl Search {
         let n = model.len();
         let cells = (model.pairs == PairSearch::Cells).then(|| Cells::new(&vec![widest; n]));
         let far = if cells.is_none() { (0..n).collect() } else { Vec::new() };
-        Search {
-            found: Vec::new(),
-            reach: vec![0.0; n],
-            near: vec![0.0; n],
-            far,
-            cells,
-            widest,
-            stage: Stage::Done,
-        }
+        Search { found: Vec::new(), reach: vec![0.0; n], near: vec![0.0; n], far, cells, widest, stage: Stage::Done }
     }
 
     /// Begins anew with these reaches, m by sphere.
