@@ -21,6 +21,9 @@ use crate::{
 /// Longest text the prompt takes; more than any order needs.
 const PROMPT: usize = 200;
 
+/// What to do where a run cannot go on; why it cannot is on the screen already.
+pub(super) const STALLED: &str = "The run cannot go on from here: m changes the method, r restarts.";
+
 impl App {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         self.message = None;
@@ -154,7 +157,7 @@ impl App {
     fn say_if_stalled(&mut self) -> bool {
         let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
         if stalled {
-            self.message.clone_from(&self.report.snapshot.stall);
+            self.say(STALLED);
         }
         stalled
     }
@@ -204,6 +207,15 @@ impl App {
         self.run(running);
         look::whole_scene(&mut self.look);
         self.look.selected = None;
+        self.warn();
+    }
+
+    /// Says what of the scene is allowed but hardly meant.
+    pub(super) fn warn(&mut self) {
+        let warnings = scene::warnings(&self.current.scene, self.settings);
+        if !warnings.is_empty() {
+            self.say(format!("Note: {}.", warnings.join("; ")));
+        }
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
@@ -313,7 +325,7 @@ impl App {
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
             Ok(Some(Order::Goto(t))) => {
                 self.head_for(Command::Goto(t), true);
-                self.say("On the way; Esc stops.");
+                self.say("On the way to the first frame that ends then or later; Esc stops.");
             }
             #[cfg(debug_assertions)]
             Ok(Some(Order::Panic { simulation: true })) => self.worker.send(Command::Panic),

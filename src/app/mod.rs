@@ -143,6 +143,7 @@ impl App {
             help: help_rows(),
             hints: hints(),
         };
+        app.warn();
         if !setup.paused {
             app.run(true);
         }
@@ -200,7 +201,7 @@ impl App {
             self.headed &= self.running;
         }
         if self.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
-            self.message.clone_from(&self.report.snapshot.stall);
+            self.say(act::STALLED);
         }
         if self.report.obeyed == before.obeyed && self.report.activity == before.activity {
             Effect::Draw

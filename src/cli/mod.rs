@@ -15,6 +15,7 @@ mod completions;
 mod failure;
 mod list;
 mod man;
+mod measure;
 mod methods;
 mod numbers;
 mod output;
@@ -63,6 +64,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
+        Command::Measure(arguments) => measure::measure(arguments, signals),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

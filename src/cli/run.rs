@@ -22,6 +22,9 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     refuse_same_target(arguments)?;
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
     let settings = arguments.solver.over(opened.scene.solver);
+    for warning in scene::warnings(&opened.scene, settings) {
+        note(&format!("{}: {warning}", opened.key));
+    }
     let mut recorder = Recorder {
         simulation: Simulation::new(&opened.scene, settings),
         until: arguments.until.unwrap_or(opened.scene.duration),

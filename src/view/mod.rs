@@ -204,11 +204,14 @@ pub fn draw(screen: &Screen, area: Rect, buffer: &mut Buffer) {
             sheet.put(area, &format!("too small {}x{}", area.width, area.height), plain);
         }
         Plan::Numbers { area } => draw_numbers(screen, area, &mut sheet),
-        Plan::Full(full) => draw_full(screen, &full, &mut sheet),
+        Plan::Full(full) => {
+            draw_full(screen, &full, &mut sheet);
+            prompt::draw_last_row(screen, area, &mut sheet);
+        }
     }
 }
 
-/// Status, views, inspector, timeline and hints, each where the plan has room for it.
+/// Status, views, inspector and timeline, each where the plan has room for it.
 fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
     status::draw(screen, plan.status, sheet);
     if !draw_popup(screen, plan.body, sheet) {
@@ -223,18 +226,17 @@ fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
     if let Some(area) = plan.timeline {
         timeline::draw(screen, area, sheet);
     }
-    prompt::draw_last_row(screen, plan.last, sheet);
 }
 
 /// Numbers only, for screens too small for a picture; popups and the prompt still show.
 fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
-    let (body, last) = layout::split_bottom(area, 1);
+    let (body, _) = layout::split_bottom(area, 1);
     let speaking = screen.message.is_some() || matches!(screen.popup, Popup::Prompt { .. });
     if !draw_popup(screen, if speaking { body } else { area }, sheet) {
         status::draw_numbers(screen, if speaking { body } else { area }, sheet);
     }
     if speaking {
-        prompt::draw_last_row(screen, last, sheet);
+        prompt::draw_last_row(screen, area, sheet);
     }
 }
 
