@@ -92,8 +92,8 @@ fn an_impact_leaves_with_e_times_its_approach_speed_and_its_share_of_the_tangent
         // One row is solved to rounding by one sweep.
         assert!((impact.separation_speed / impact.approach_speed - 0.8).abs() < 1e-12, "{impact:?}");
     }
-    // v = √(2 · 9.8 · 2.5) = 7 m/s; at most a frame's fall is missing.
-    assert!((impacts[0].approach_speed - 7.0).abs() < 0.01, "{}", impacts[0].approach_speed);
+    // v = √(2 · 9.8 · 2.5) = 7 m/s; a frame's fall is missing, and half a frame's of Euler's.
+    assert!((impacts[0].approach_speed - 7.0).abs() < 0.015, "{}", impacts[0].approach_speed);
     let kept = 0.99_f64.powi(impacts.len() as i32);
     assert!((run.state().v[0].x - kept).abs() < 1e-12, "{} after {} impacts", run.state().v[0].x, impacts.len());
 }
@@ -142,7 +142,8 @@ fn no_impact_of_a_gas_creates_energy_whatever_a_frame_holds() {
         }
         let (_, deepest) = penetration(&gas, &run.state().x);
         assert!(deepest < 1e-6, "e {restitution}: {deepest:e} m");
-        assert!(restitution < 1.0 || before > 0.9 * run.initial_energy(), "{before} of {} J", run.initial_energy());
+        // What several impacts in a frame would gain is withheld, what they lose is lost: in 10 s, not much at this dt.
+        assert!(restitution < 1.0 || before > 0.7 * run.initial_energy(), "{before} of {} J", run.initial_energy());
     }
 }
 
@@ -171,8 +172,9 @@ fn ten_spheres_dropped_in_a_tube_come_to_rest_on_each_other() {
         let mut run = start(&scene, dt, 1e-9);
         run_to(&mut run, 10.0, u64::MAX);
         for (k, x) in run.state().x.iter().enumerate() {
-            // The solver leaves 1e-9 of g dt in a frame; the next takes it back.
-            assert!((*x - dvec3(0.0, 0.5 + k as f64, 0.0)).length() < 1e-10, "dt {dt}: sphere {k} at {x}");
+            // The solver may leave 1e-9 of rest_speed + 2 g dt in every contact.
+            let left = 1e-9 * (0.1 + 19.6 * dt) * dt * (k + 1) as f64;
+            assert!((*x - dvec3(0.0, 0.5 + k as f64, 0.0)).length() <= left, "dt {dt}: sphere {k} at {x}");
         }
         assert_eq!(run.tallies().unconverged, 0, "dt {dt}");
     }

@@ -168,8 +168,11 @@ impl Row {
     pub(super) fn new(path: &Path, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
         let law = &path.model.law;
         let e = if path.key.0 == Kind::Wall { law.wall_restitution } else { law.restitution };
-        let reached = (meeting.way / terms.h).max(-terms.push);
         let gravity = pull(path.model, path.key) * terms.h;
+        // What the solver may miss is not corrected: the problem of bodies at rest is then the same in every frame, and
+        // the sweeps of all frames converge on one solution instead of chasing their own corrections.
+        let still = terms.tolerance * (law.rest_speed + gravity).min(path.size() / terms.h) * terms.h;
+        let reached = if meeting.way.abs() <= still { 0.0 } else { (meeting.way / terms.h).max(-terms.push) };
         let share = terms.tolerance * (law.rest_speed + gravity + speeds.closing.abs());
         let rounding = ROUNDING * (path.velocity.length() + gravity + reached.abs());
         Row {
