@@ -100,6 +100,7 @@ fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
         snapshot: &shown.snapshot,
         pace: Pace { mode, wanted: 1.0, reached: None },
         ticks: &shown.ticks,
+        beside: None,
         look,
         popup: Popup::None,
         message: None,

@@ -38,7 +38,7 @@ impl Watch {
 }
 
 /// Processor time of the calling thread, s.
-fn thread_cpu() -> f64 {
+pub fn thread_cpu() -> f64 {
     seconds(clock_gettime(ClockId::ThreadCPUTime))
 }
 

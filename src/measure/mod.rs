@@ -17,7 +17,7 @@
 //! | file | owns |
 //! |---|---|
 //! | `walk` | a run read at fixed instants |
-//! | `reference`, `horizon` | the yardstick, and until when it holds |
+//! | `reference`, `horizon`, `growth` | the yardstick, and until when it holds |
 //! | `deviation` | how far one run is from another |
 //! | `clock`, `cost` | processor time; the only clocks |
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
@@ -31,6 +31,7 @@ mod cost;
 mod deviation;
 mod figure;
 mod front;
+mod growth;
 mod horizon;
 mod ladder;
 mod reference;
@@ -41,10 +42,12 @@ mod sweep;
 mod trade;
 mod walk;
 
+pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
 pub use front::{Cheapest, cheapest, front};
+pub use growth::Growth;
 pub use horizon::Horizon;
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
 pub use reference::{BUDGET, Reference};
