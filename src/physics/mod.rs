@@ -90,9 +90,10 @@ trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
-    /// Impulses decided at the end of the last frame that act in the next, N s by sphere.
+    /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
+    /// that act in the next, N s by sphere; `exact`: how its run began, (t, 0, 0), then x and v by sphere.
     fn transient(&self, model: &Model) -> Vec<DVec3>;
-    /// Right after [`Engine::begin`]: with these impulses (N s by sphere) pending instead of its own.
+    /// Right after [`Engine::begin`]: continues the run whose transient this was.
     fn continue_with(&mut self, transient: &[DVec3]);
     /// The state for another method to begin with: pending impulses are already in its velocities.
     fn hand_over(&self, model: &Model) -> State;
@@ -149,7 +150,8 @@ impl Simulation {
 
     /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
     /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
-    /// then. Tallies count from here.
+    /// then. Tallies count from here. `exact` does the run up to here again when it is first told to advance, within
+    /// the work it is given.
     pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
         let mut model = Model::new(scene);
         model.initial.t = t;
@@ -195,8 +197,9 @@ impl Simulation {
         each!(&self.engine, engine => engine.at(&self.model, t))
     }
 
-    /// Impulses decided at the end of the last frame that act in the next, N s by sphere: with t, x and v all that a
-    /// run continues from.
+    /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
+    /// in the next, N s by sphere. `exact`: how its run began, (t, 0, 0), then x (m) and v (m/s) by sphere, since the
+    /// rounding of its later states follows from nothing less.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }

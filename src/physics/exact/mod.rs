@@ -16,6 +16,7 @@ mod load;
 
 mod prediction;
 mod queue;
+mod replay;
 mod rest;
 
 use std::borrow::Cow;
@@ -30,6 +31,7 @@ use impact::Instant;
 use islands::Rests;
 use prediction::Plan;
 use queue::Queue;
+use replay::Replay;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -61,6 +63,11 @@ pub(super) struct Exact {
     instant: Instant,
     /// Gaps computed since the log was last told.
     evaluations: u64,
+    /// How the run began, if not as the model says.
+    origin: Option<Box<State>>,
+    /// How the run began that this one has yet to catch up with.
+    resumes: Option<State>,
+    replay: Option<Box<Replay>>,
 }
 
 /// What one single-step shows: up to the next event, or dt.
@@ -85,6 +92,7 @@ enum Turn {
 impl Engine for Exact {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact {
         let count = model.len();
+        let origin = (state != model.initial).then(|| Box::new(state.clone()));
         let mut exact = Exact {
             settings,
             now: state.t,
@@ -97,6 +105,9 @@ impl Engine for Exact {
             rests: Rests::default(),
             instant: Instant::default(),
             evaluations: 0,
+            origin,
+            resumes: None,
+            replay: None,
         };
         exact.load(model, log);
         exact.flight.forget();
@@ -104,6 +115,9 @@ impl Engine for Exact {
     }
 
     fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
+        if self.resumes.is_some() && !self.catch_up(model, work) {
+            return Progress::Yielded;
+        }
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -140,7 +154,10 @@ impl Engine for Exact {
         self.frame.step
     }
 
-    fn at(&self, _: &Model, t: f64) -> State {
+    fn at(&self, model: &Model, t: f64) -> State {
+        if self.resumes.is_some() {
+            return model.initial.clone();
+        }
         let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
         let mut state = self.flight.then(t);
         self.rests.bend(&mut state);
@@ -148,10 +165,12 @@ impl Engine for Exact {
     }
 
     fn transient(&self, model: &Model) -> Vec<DVec3> {
-        vec![DVec3::ZERO; model.len()]
+        replay::written(self.resumes.as_ref().or(self.origin.as_deref()).unwrap_or(&model.initial))
     }
 
-    fn continue_with(&mut self, _: &[DVec3]) {}
+    fn continue_with(&mut self, transient: &[DVec3]) {
+        self.resumes = replay::read(transient, self.stamps.len()).filter(|origin| origin.t <= self.frame.time);
+    }
 
     fn hand_over(&self, model: &Model) -> State {
         self.at(model, self.frame.time)
