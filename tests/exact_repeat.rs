@@ -164,6 +164,29 @@ fn a_run_continues_bit_for_bit_from_where_another_one_was_and_how_it_began() {
 }
 
 #[test]
+fn swept_runs_continue_bit_for_bit_too_unless_their_tolerance_was_changed() {
+    let swept = |tolerance| Settings { method: Method::Swept, dt: 0.05, tolerance };
+    let scene = open("paper-3");
+    let mut run = Simulation::new(&scene, swept(1e-6));
+    assert_eq!(run_to(&mut run, 3.0, u64::MAX), None);
+    let mut next = again(&scene, &run);
+    for run in [&mut run, &mut next] {
+        assert_eq!(run_to(run, 9.0, u64::MAX), None);
+    }
+    assert_eq!(next.at(9.0).hash(), run.at(9.0).hash());
+    run.set_settings(swept(1e-9));
+    // Then they begin anew from t, x and v: to rounding the same, no more.
+    assert!(run.transient().is_empty());
+    let mut next = again(&scene, &run);
+    for run in [&mut run, &mut next] {
+        assert_eq!(run_to(run, 12.0, u64::MAX), None);
+    }
+    let error = (run.at(12.0).x[0] - next.at(12.0).x[0]).length();
+    // Rounding, 1e-15 m, grows by 2e8 over twenty seconds of this scene at most.
+    assert!(error <= 1e-6, "{error:e} m");
+}
+
+#[test]
 fn a_run_begun_by_the_other_method_continues_from_there() {
     let scene = open("paper-3");
     let mut run = Simulation::new(&scene, support::paper(0.01, 1e-3));

@@ -9,9 +9,12 @@ use glam::DVec3;
 
 pub mod contact;
 pub mod contact_time;
+mod detector;
 mod exact;
+mod knobs;
 mod log;
 pub mod model;
+mod moreau;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
@@ -21,8 +24,10 @@ mod requirements;
 mod sealed;
 pub mod state;
 pub mod support;
+mod swept;
 
 pub use contact::{Class, Contact, Kind, Probe};
+pub use knobs::{Effect, Knobs, knobs};
 use log::Log;
 pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
 pub use requirements::Requirements;
@@ -69,7 +74,9 @@ pub struct Description {
 pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
+        Method::Swept => &swept::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
+        Method::Moreau => &moreau::DESCRIPTION,
     }
 }
 
@@ -91,7 +98,7 @@ trait Engine {
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
     /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
-    /// that act in the next, N s by sphere; `exact`: how its run began, (t, 0, 0), then x and v by sphere.
+    /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere.
     fn transient(&self, model: &Model) -> Vec<DVec3>;
     /// Right after [`Engine::begin`]: continues the run whose transient this was.
     fn continue_with(&mut self, transient: &[DVec3]);
@@ -104,8 +111,12 @@ trait Engine {
 enum Engines {
     /// The source paper's.
     Paper(paper::Paper),
-    /// Event by event.
-    Exact(exact::Exact),
+    /// Event by event, contact times found by looking.
+    Swept(exact::Exact<swept::Advance>),
+    /// Event by event, contact times by roots.
+    Exact(exact::Exact<exact::Roots>),
+    /// Velocity-level time-stepping.
+    Moreau(moreau::Moreau),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -113,7 +124,9 @@ macro_rules! each {
     ($engines:expr, $engine:ident => $call:expr) => {
         match $engines {
             Engines::Paper($engine) => $call,
+            Engines::Swept($engine) => $call,
             Engines::Exact($engine) => $call,
+            Engines::Moreau($engine) => $call,
         }
     };
 }
@@ -122,7 +135,9 @@ impl Engines {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+            Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
+            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
         }
     }
 }
@@ -150,7 +165,7 @@ impl Simulation {
 
     /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
     /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
-    /// then. Tallies count from here. `exact` does the run up to here again when it is first told to advance, within
+    /// then. Tallies count from here. `exact` and `swept` do the run up to here again when it is first told to advance, within
     /// the work it is given.
     pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
         let mut model = Model::new(scene);
@@ -198,8 +213,9 @@ impl Simulation {
     }
 
     /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
-    /// in the next, N s by sphere. `exact`: how its run began, (t, 0, 0), then x (m) and v (m/s) by sphere, since the
-    /// rounding of its later states follows from nothing less.
+    /// in the next, N s by sphere. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
+    /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
+    /// then the continuation is the same to rounding only.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }

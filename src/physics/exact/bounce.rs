@@ -8,6 +8,7 @@ use super::flight::Line;
 use super::impact::Meeting;
 use super::rest::ROUNDING;
 use crate::physics::contact_time::{Part, Path, touch};
+use crate::physics::detector::Detector;
 use crate::physics::{Kind, Model};
 
 /// A sphere this many radii from a face has just touched it.
@@ -39,7 +40,7 @@ fn first_power_below(e: f64, bound: f64) -> f64 {
     above * e
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
     /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
     /// 1e-5 of it each, and the time that they take.

@@ -8,6 +8,7 @@ use super::Exact;
 use super::bounce::along;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
+use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
@@ -85,7 +86,7 @@ impl Meeting {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
         let Exact { instant, now, .. } = self;
@@ -124,6 +125,10 @@ impl Exact {
     /// The contact that sphere `i` planned is due.
     pub(super) fn contact(&mut self, model: &Model, log: &mut Log, i: usize) -> Result<(), Stall> {
         let plan = self.plans[i];
+        if !plan.sure {
+            self.predict(model, i);
+            return Ok(());
+        }
         let other = plan.other as usize;
         let stale = plan.kind == Kind::Pair && self.stamps[other] != plan.stamp;
         let (a, b) = if plan.kind == Kind::Pair { (i.min(other), i.max(other)) } else { (i, other) };

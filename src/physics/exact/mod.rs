@@ -18,11 +18,13 @@ mod prediction;
 mod queue;
 mod replay;
 mod rest;
+mod roots;
 
 use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::Cells;
@@ -31,7 +33,8 @@ use impact::Instant;
 use islands::Rests;
 use prediction::Plan;
 use queue::Queue;
-use replay::Replay;
+use replay::{Origin, Replay};
+pub(super) use roots::Roots;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -48,8 +51,9 @@ const FEW: usize = 64;
 
 /// The event-driven method at work.
 #[derive(Debug, Clone)]
-pub(super) struct Exact {
+pub(super) struct Exact<D> {
     settings: Settings,
+    detector: D,
     /// Time of the last event, s.
     now: f64,
     frame: Frame,
@@ -63,11 +67,10 @@ pub(super) struct Exact {
     instant: Instant,
     /// Gaps computed since the log was last told.
     evaluations: u64,
-    /// How the run began, if not as the model says.
-    origin: Option<Box<State>>,
+    origin: Origin,
     /// How the run began that this one has yet to catch up with.
     resumes: Option<State>,
-    replay: Option<Box<Replay>>,
+    replay: Option<Box<Replay<D>>>,
 }
 
 /// What one single-step shows: up to the next event, or dt.
@@ -89,12 +92,13 @@ enum Turn {
     Frame,
 }
 
-impl Engine for Exact {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact {
+impl<D: Detector> Engine for Exact<D> {
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact<D> {
         let count = model.len();
-        let origin = (state != model.initial).then(|| Box::new(state.clone()));
+        let origin = if state == model.initial { Origin::Model } else { Origin::State(Box::new(state.clone())) };
         let mut exact = Exact {
             settings,
+            detector: D::new(settings),
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
             flight: Flight::new(model, &state),
@@ -138,8 +142,14 @@ impl Engine for Exact {
         }
     }
 
-    fn retune(&mut self, _: &Model, settings: Settings) {
+    fn retune(&mut self, model: &Model, settings: Settings) {
+        let same = settings.tolerance == self.settings.tolerance;
         self.settings = settings;
+        if !D::SOLVES && !same {
+            self.detector = D::new(settings);
+            self.origin = Origin::Lost;
+            (0..model.len()).for_each(|i| self.predict(model, i));
+        }
     }
 
     fn state(&self, model: &Model) -> Cow<'_, State> {
@@ -165,7 +175,12 @@ impl Engine for Exact {
     }
 
     fn transient(&self, model: &Model) -> Vec<DVec3> {
-        replay::written(self.resumes.as_ref().or(self.origin.as_deref()).unwrap_or(&model.initial))
+        match (&self.resumes, &self.origin) {
+            (Some(state), _) => replay::written(state),
+            (None, Origin::Model) => replay::written(&model.initial),
+            (None, Origin::State(state)) => replay::written(state),
+            (None, Origin::Lost) => Vec::new(),
+        }
     }
 
     fn continue_with(&mut self, transient: &[DVec3]) {
@@ -177,7 +192,7 @@ impl Engine for Exact {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.flight.forget();
@@ -186,6 +201,7 @@ impl Exact {
     }
 
     fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
+        self.detector.report(self.frame.time, log);
         self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;

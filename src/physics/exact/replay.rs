@@ -8,14 +8,26 @@
 use glam::DVec3;
 
 use super::{Exact, Frame};
+use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::{Engine, Model, Settings, State};
 
 /// A run that is being done again.
 #[derive(Debug, Clone)]
-pub(super) struct Replay {
-    exact: Exact,
+pub(super) struct Replay<D> {
+    exact: Exact<D>,
     log: Log,
+}
+
+/// How a run began: what all of it follows from, with the model and the settings.
+#[derive(Debug, Clone)]
+pub(super) enum Origin {
+    /// As the model says.
+    Model,
+    /// From another method's state, or a resumed one.
+    State(Box<State>),
+    /// Settings that change the trajectory have changed since: a continuation would have to know when.
+    Lost,
 }
 
 /// A state as plain vectors: (t, 0, 0), then x and v by sphere.
@@ -30,9 +42,9 @@ pub(super) fn read(vectors: &[DVec3], count: usize) -> Option<State> {
     fits.then(|| State { t: first.x, x: rest[..count].to_vec(), v: rest[count..].to_vec() })
 }
 
-impl Replay {
+impl<D: Detector> Replay<D> {
     /// The run from `origin` on.
-    fn new(model: &Model, settings: Settings, origin: State) -> Replay {
+    fn new(model: &Model, settings: Settings, origin: State) -> Replay<D> {
         let mut log = Log::default();
         // frames end at impacts only: they change no bit
         let exact = Exact::begin(model, Settings { dt: f64::INFINITY, ..settings }, origin, &mut log);
@@ -59,7 +71,7 @@ impl Replay {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Catches up with the run that this one continues, for about `work` events; whether it has.
     pub(super) fn catch_up(&mut self, model: &Model, work: u64) -> bool {
         let Some(origin) = self.resumes.take() else { return true };

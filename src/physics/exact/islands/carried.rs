@@ -29,7 +29,7 @@ impl Rests {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// The contacts of an island carry these forces (N) from now on.
     pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64]) {
         let (now, start) = (self.now, self.frame.time);
