@@ -98,7 +98,8 @@ trait Engine {
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
     /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
-    /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere.
+    /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere;
+    /// `moreau`: what held.
     fn transient(&self, model: &Model) -> Vec<DVec3>;
     /// Right after [`Engine::begin`]: continues the run whose transient this was.
     fn continue_with(&mut self, transient: &[DVec3]);
@@ -215,7 +216,8 @@ impl Simulation {
     /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
     /// in the next, N s by sphere. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
     /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
-    /// then the continuation is the same to rounding only.
+    /// then the continuation is the same to rounding only. `moreau`: as many rows as contacts held in the last frame:
+    /// sphere, other sphere (or −1 − wall), impulse in N s.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }

@@ -36,6 +36,14 @@ pub const GOLDEN: &[Golden] = &[
     golden("zeno", 10.0, Method::Paper, 0xb8af2fe4bdf32a64),
     golden("corner", 5.0, Method::Paper, 0x7c76e6a0e19ddf14),
     golden("newtons-cradle", 20.0, Method::Paper, 0x96ddd5673680961a),
+    golden("paper-0", 12.0, Method::Swept, 0xa137e8ff3e90a52b),
+    golden("paper-1", 8.0, Method::Swept, 0xd65c6e882ce647c2),
+    golden("paper-2", 10.0, Method::Swept, 0x14be6d86d2855e19),
+    golden("paper-3", 8.0, Method::Swept, 0x78fd894993a8725b),
+    golden("paper-4", 5.0, Method::Swept, 0x891ed0e123a75235),
+    golden("zeno", 10.0, Method::Swept, 0x493bf24071c0e98d),
+    golden("corner", 5.0, Method::Swept, 0xf742273ff871bae0),
+    golden("newtons-cradle", 20.0, Method::Swept, 0xf497d6449d8523b6),
 ];
 
 pub(super) const CHECK: Check = Check {

@@ -21,6 +21,9 @@ const COLLAPSE: u32 = 1000;
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
 
+/// Releases of one contact without the clock advancing after which it is held for a moment.
+const STUCK: u32 = 20;
+
 /// Over how many events the clock must advance by more than rounding.
 const STRETCH: u64 = 20_000_000;
 
@@ -44,9 +47,21 @@ const CLOCK: f64 = 1e-3;
 pub(super) struct Instant {
     events: u64,
     impacts: BTreeMap<Key, u32>,
+    /// How often each contact has opened.
+    releases: BTreeMap<Key, u32>,
     /// Events in this stretch, and the time when it began, s.
     stretch: u64,
     since: f64,
+}
+
+impl Instant {
+    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
+    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
+        let count = self.releases.entry(key).or_default();
+        *count += 1;
+        *count > STUCK
+    }
 }
 
 /// Two bodies that touch.
@@ -93,8 +108,9 @@ impl<D: Detector> Exact<D> {
         if time > *now {
             *now = time;
             instant.events = 0;
-            if !instant.impacts.is_empty() {
+            if !instant.impacts.is_empty() || !instant.releases.is_empty() {
                 instant.impacts.clear();
+                instant.releases.clear();
             }
         }
         instant.events += 1;

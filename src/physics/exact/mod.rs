@@ -201,7 +201,7 @@ impl<D: Detector> Exact<D> {
     }
 
     fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
-        self.detector.report(self.frame.time, log);
+        self.detector.report(self.frame.time, end, log);
         self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
