@@ -186,3 +186,27 @@ fn the_screen_begins_with_what_was_chosen() {
     assert_eq!(pty.exit(), 0);
     pty.assert_given_back();
 }
+
+#[test]
+fn every_command_of_its_document_exists() {
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/measure.md")).expect("the document");
+    let joined = text.replace("\\\n", " ");
+    let commands: Vec<Vec<String>> = joined.lines().filter_map(words).collect();
+    assert!(commands.len() >= 8, "{commands:?}");
+    for words in commands {
+        let parsed = carom::cli::command().try_get_matches_from(&words);
+        assert!(parsed.is_ok(), "{words:?}: {}", parsed.expect_err("it was not parsed"));
+    }
+}
+
+/// The words of a line that runs carom, by itself or under a scheduler, with what the shell would put in.
+fn words(line: &str) -> Option<Vec<String>> {
+    let command = line.split(" #").next()?.split(":::").next()?;
+    let start = command.find("carom ").filter(|start| {
+        let before = command[..*start].trim();
+        ["", "parallel", "sbatch --wait trade.slurm &&"].contains(&before)
+    })?;
+    let filled = command[start..].replace("$SLURM_ARRAY_TASK_ID", "3").replace("$SLURM_ARRAY_TASK_COUNT", "64");
+    let filled = filled.replace("{1}", "0").replace("{2}", "2").replace('"', "");
+    Some(filled.split_whitespace().map(String::from).collect())
+}
