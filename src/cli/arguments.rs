@@ -42,6 +42,8 @@ pub(super) enum Command {
     Render(Render),
     /// Measure how much accuracy costs how much time
     Measure(Measure),
+    /// Measure known results of physics and mathematics on this machine
+    Verify(Verify),
     /// Print the completions for a shell
     Completions(Completions),
     /// Print the manual page
@@ -165,6 +167,13 @@ pub(super) struct Measure {
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs"],
           value_hint = ValueHint::FilePath)]
     pub(super) merge: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Verify {
+    /// Some seconds instead of some minutes: fewer digits, fewer spheres
+    #[arg(long)]
+    pub(super) quick: bool,
 }
 
 #[derive(Debug, Args)]

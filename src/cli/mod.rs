@@ -26,6 +26,7 @@ mod render;
 mod run;
 mod show;
 mod signals;
+mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -67,6 +68,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
+        Command::Verify(arguments) => verify::verify(arguments, signals),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

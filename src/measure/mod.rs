@@ -26,6 +26,7 @@
 //! | `front` | which settings are worth their time |
 //! | `accuracy` | the cheapest setting that meets an error |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
+//! | `verify` | known results of physics and mathematics, measured here |
 
 mod accuracy;
 mod chart;
@@ -43,6 +44,7 @@ mod scale;
 mod shard;
 mod sweep;
 mod trade;
+pub mod verify;
 mod walk;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
