@@ -68,20 +68,24 @@ impl Bulk {
         let scene = gas(packing, count, &[1.0])?;
         let mut gas = Gas::thermal(lab, &scene)?;
         let half = 0.5 * side(packing, count) - MARGIN;
-        let (kt, start, before) = (gas.temperature(), gas.run.time(), gas.run.tallies().impacts);
-        let (mut spheres, mut looks, mut impulses, mut impacts) = (0, 0, 0.0, 0);
+        let (start, before) = (gas.run.time(), gas.run.tallies().impacts);
+        let (mut spheres, mut looks, mut squares, mut impulses, mut impacts) = (0, 0, 0.0, 0.0, 0);
         while gas.run.tallies().impacts - before < wanted {
             // Ten looks while a sphere of mean speed passes its diameter.
-            let time = start + 0.1 * SIGMA * f64::from(looks + 1);
-            let state = gas.go(time)?;
+            let state = gas.go(gas.run.time() + 0.1 * SIGMA)?;
             looks += 1;
-            spheres += state.x.iter().filter(|x| inside(**x, half)).count();
-            for impact in gas.impacts().filter(|impact| impact.time <= time && inside(impact.point, half)) {
+            for (_, v) in state.x.iter().zip(&state.v).filter(|(x, _)| inside(**x, half)) {
+                spheres += 1;
+                squares += v.length_squared();
+            }
+            for impact in gas.impacts().filter(|impact| inside(impact.point, half)) {
                 impulses += impact.impulse;
                 impacts += 1;
             }
         }
-        let (mean, time) = (spheres as f64 / f64::from(looks), 0.1 * SIGMA * f64::from(looks));
+        // The temperature of the same place, too: the middle may be warmer than the rest for as long as heat needs.
+        let (kt, time) = (squares / (3.0 * f64::from(spheres)), gas.run.time() - start);
+        let mean = f64::from(spheres) / f64::from(looks);
         let volume = (2.0 * half) * (2.0 * half) * (2.0 * half);
         let rate = 2.0 * f64::from(impacts) / (mean * time);
         Ok(Bulk {
