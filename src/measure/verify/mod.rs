@@ -116,14 +116,19 @@ mod tests {
     const GASES: [&str; 3] = ["hard spheres", "Haff's law", "equipartition"];
 
     #[test]
-    fn no_check_fails_under_the_right_law() {
-        assert_eq!(failing(1.0, 1.0, &GASES), [] as [&str; 0]);
+    fn under_the_right_law_every_check_has_rows_that_pass_and_names_that_fit() {
+        let lab = Lab::new(Depth::Quick, &|| true);
+        for check in CHECKS.iter().filter(|check| !GASES.contains(&check.title)) {
+            let rows = check.rows(&lab).expect("a result");
+            let fine = |row: &Row| row.passes() && row.what.chars().count() <= 28;
+            assert!(!rows.is_empty() && rows.iter().all(fine), "{rows:?}");
+        }
     }
 
     #[test]
     fn whatever_pairs_decide_fails_if_they_lose_a_hundredth_more() {
-        let expected =
-            ["Galperin's billiard", "Newton's cradle", "hard spheres", "Haff's law", "time reversal", "golden hashes"];
+        // In neither scene of the time reversal do spheres meet before it turns.
+        let expected = ["Galperin's billiard", "Newton's cradle", "hard spheres", "Haff's law", "golden hashes"];
         assert_eq!(failing(0.99, 1.0, &["equipartition"]), expected);
     }
 
@@ -132,15 +137,6 @@ mod tests {
         let expected =
             ["bouncing ball", "Galperin's billiard", "order in the tolerance", "time reversal", "golden hashes"];
         assert_eq!(failing(1.0, 0.99, &GASES), expected);
-    }
-
-    #[test]
-    fn every_row_has_a_name_that_fits_and_every_check_a_row() {
-        let lab = Lab::new(Depth::Quick, &|| true);
-        for check in CHECKS.iter().filter(|check| !GASES.contains(&check.title)) {
-            let rows = check.rows(&lab).expect("a result");
-            assert!(!rows.is_empty() && rows.iter().all(|row| row.what.chars().count() <= 28), "{rows:?}");
-        }
     }
 
     #[test]
