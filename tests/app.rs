@@ -320,6 +320,36 @@ fn a_run_that_cannot_go_on_says_so_once_and_again_when_asked() {
 }
 
 #[test]
+fn the_ghost_shows_how_far_paper_is_off_and_that_exact_is_not() {
+    let mut user = User::with("paper-0");
+    user.type_in(":dt 0.1\n:goto 1\nx");
+    // Free fall from rest by Euler's rule is g t dt / 2 too low after t, here 9.8 · 1 · 0.1 / 2 m (to rounding of the sum).
+    let t = user.snapshot().t;
+    let ghost = user.app.ghost().expect("it has been compared").clone();
+    assert_eq!(ghost.t, t);
+    assert!((ghost.deviations[0] - 0.5 * 9.8 * t * 0.1).abs() < 1e-12, "{ghost:?}");
+    assert!(user.text().contains("exact run  t"), "{}", user.text());
+    user.type_in("r:dt 0.1\nmm:goto 1\n");
+    assert_eq!(user.snapshot().method, "exact");
+    let ghost = user.app.ghost().expect("it has been compared");
+    assert_eq!((ghost.deviations[0], ghost.energy_error), (0.0, 0.0));
+    user.type_in("]");
+    assert_eq!(user.app.ghost().map(|ghost| ghost.t), Some(0.0), "another scene is compared from its start");
+    user.type_in("x");
+    assert_eq!(user.app.ghost(), None);
+    assert!(!user.text().contains("exact run  t"), "{}", user.text());
+}
+
+#[test]
+fn past_its_horizon_a_scene_says_so() {
+    let mut user = User::with("paper-3");
+    user.type_in("x:goto 12\n");
+    // The horizon is looked for when there is nothing else to do; it lies between 7 and 11 s.
+    user.until("past the horizon", |app| app.ghost().is_some_and(carom::snapshot::Ghost::is_past_horizon));
+    assert!(user.text().contains("positions mean nothing"), "{}", user.text());
+}
+
+#[test]
 fn a_message_takes_the_rows_it_needs_and_what_is_hardly_meant_is_said_at_once() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("fast.ron");

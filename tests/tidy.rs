@@ -31,7 +31,7 @@ const PLAN: &[(&str, &[&str])] = &[
     ),
     ("terminal", &["app", "frame", "physics", "scene", "view"]),
     ("app", &["frame", "geometry", "physics", "scene", "snapshot", "view", "worker"]),
-    ("worker", &["physics", "scene", "snapshot"]),
+    ("worker", &["measure", "physics", "scene", "snapshot"]),
     ("view", &["geometry", "snapshot"]),
     ("frame", &[]),
     ("measure", &["export", "geometry", "physics", "scene"]),

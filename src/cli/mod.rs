@@ -7,8 +7,10 @@
 //! | `failure` | how a command can end, its exit code and its one line |
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
+//! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
 
+mod accuracy;
 mod arguments;
 mod check;
 mod completions;

@@ -7,13 +7,13 @@ use glam::{DVec3, dvec3};
 
 use super::deviation::Deviation;
 use super::reference::Reference;
-use super::walk::{Cut, walk};
+use super::walk::{Budget, Cut, walk};
 use super::{GoOn, Interrupted};
 use crate::geometry::Parallelogram;
 use crate::physics::{Scene, Simulation};
 
 /// How many displaced runs are tried; the worst counts.
-const RUNS: u64 = 8;
+pub(super) const RUNS: u64 = 8;
 
 /// By how much each sphere is displaced, m.
 const DISPLACEMENT: f64 = 1e-12;
@@ -22,7 +22,7 @@ const DISPLACEMENT: f64 = 1e-12;
 const ULPS: f64 = 16.0;
 
 /// Growth at which positions are given up.
-const GROWTH: f64 = 1e6;
+pub(super) const GROWTH: f64 = 1e6;
 
 /// A gap up to so many displacements is touched: a displacement toward that wall would push into it.
 const TOUCH: f64 = 4.0;
@@ -48,7 +48,7 @@ impl Horizon {
 ///
 /// # Errors
 /// If `go_on` says no.
-pub(super) fn of(scene: &Scene, reference: &Reference, budget: u64, go_on: GoOn) -> Result<Horizon, Interrupted> {
+pub(super) fn of(scene: &Scene, reference: &Reference, budget: Budget, go_on: GoOn) -> Result<Horizon, Interrupted> {
     let mut worst = Horizon::unknown();
     for seed in 1..=RUNS {
         let found = one(scene, reference, (seed, budget), worst.time, go_on)?;
@@ -62,7 +62,7 @@ pub(super) fn of(scene: &Scene, reference: &Reference, budget: u64, go_on: GoOn)
 fn one(
     scene: &Scene,
     reference: &Reference,
-    (seed, budget): (u64, u64),
+    (seed, budget): (u64, Budget),
     known: Option<f64>,
     go_on: GoOn,
 ) -> Result<Horizon, Interrupted> {
@@ -85,13 +85,13 @@ fn one(
 }
 
 /// How far to displace, m.
-fn displacement(scene: &Scene) -> f64 {
+pub(super) fn displacement(scene: &Scene) -> f64 {
     let largest = scene.spheres.iter().map(|sphere| sphere.x.abs().max_element()).fold(0.0, f64::max);
     DISPLACEMENT.max(ULPS * (largest.next_up() - largest))
 }
 
 /// The scene with every sphere `length` m aside.
-fn displaced(scene: &Scene, seed: u64, length: f64) -> Scene {
+pub(super) fn displaced(scene: &Scene, seed: u64, length: f64) -> Scene {
     let mut random = Random(seed);
     let mut aside = scene.clone();
     for sphere in &mut aside.spheres {
