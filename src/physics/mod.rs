@@ -7,6 +7,8 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+#[cfg(test)]
+pub(crate) mod broken;
 pub mod contact;
 pub mod contact_time;
 mod detector;
