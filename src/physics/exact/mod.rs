@@ -179,7 +179,10 @@ impl<D: Detector> Exact<D> {
         self.detector.report(self.frame.time, end, log);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
-        log.tallies.evaluations += std::mem::take(&mut self.evaluations);
+        let looked_at = std::mem::take(&mut self.evaluations);
+        if D::SOLVES {
+            log.tallies.evaluations += looked_at;
+        }
         log.tallies.inexact_time = self.rests.curved_time(end);
         Turn::Frame
     }
