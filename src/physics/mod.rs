@@ -162,8 +162,8 @@ impl Simulation {
         let model = Model::new(scene);
         let mut log = Log::default();
         let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
-        let initial_energy = model.initial.energy(&model);
-        Simulation { model, settings, engine, log, initial_energy, stall: None }
+        let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
+        Simulation { model, settings, engine, log, initial_energy, stall }
     }
 
     /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
@@ -176,9 +176,9 @@ impl Simulation {
         let mut log = Log::default();
         let mut engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
         each!(&mut engine, engine => engine.continue_with(transient));
-        let initial_energy = model.initial.energy(&model);
+        let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
         let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
-        Simulation { model, settings, engine, log, initial_energy, stall: None }
+        Simulation { model, settings, engine, log, initial_energy, stall }
     }
 
     /// Goes on for about `work` units (degree evaluations or events), or to the goal, whichever is first.
@@ -281,7 +281,7 @@ impl Simulation {
             *engine = Engines::begin(model, settings, state, log);
         }
         self.settings = settings;
-        self.stall = None;
+        self.stall = self.now().runaway(&self.model);
     }
 
     /// All that is constant.

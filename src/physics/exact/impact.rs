@@ -12,6 +12,7 @@ use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
+use crate::physics::state::runaway;
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
@@ -343,16 +344,10 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    /// The second of two places where a number that is none is caught.
+    /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
         let line = &self.flight.lines[i];
-        if line.x.is_finite() && line.v.is_finite() {
-            return Ok(());
-        }
-        let reason = format!(
-            "The motion of sphere {i} is no longer a finite number at t = {} s; its speeds or distances are too large for f64.",
-            self.now
-        );
-        Err(Stall { time: self.now, kind: "non-finite", reason })
+        let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
+        runaway(i, self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

@@ -205,7 +205,10 @@ impl<D: Detector> Exact<D> {
         self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
-        log.tallies.evaluations += std::mem::take(&mut self.evaluations);
+        let looked_at = std::mem::take(&mut self.evaluations);
+        if D::SOLVES {
+            log.tallies.evaluations += looked_at;
+        }
         log.tallies.inexact_time = self.rests.curved_time(end);
         Turn::Frame
     }
