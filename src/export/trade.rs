@@ -67,17 +67,14 @@ impl Row for TradeRow {
 /// Reads a file of trade rows, each with its line number.
 ///
 /// # Errors
-/// A sentence that names the line and what is wrong there: a reader that fails, other columns, a cell that is no number.
+/// `line: what is wrong there`: a reader that fails, other columns, a cell that is no number.
 pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, String> {
     let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(reader);
     let mut records = csv.records();
-    let header = records.next().ok_or("line 1: the file is empty; a measure's CSV begins with its column names")?;
+    let header = records.next().ok_or("1: the file is empty; a measure's CSV begins with its column names")?;
     let header = header.map_err(|error| explain(&error))?;
     if !header.iter().eq(TradeRow::COLUMNS.iter().copied()) {
-        return Err(format!(
-            "line 1: these are not the columns of a measure; wanted are {}",
-            TradeRow::COLUMNS.join(",")
-        ));
+        return Err(format!("1: these are not the columns of a measure; wanted are {}", TradeRow::COLUMNS.join(",")));
     }
     records.map(|record| read_row(&record.map_err(|error| explain(&error))?)).collect()
 }
@@ -86,9 +83,9 @@ fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
     let line = record.position().map_or(0, csv::Position::line);
     let (found, wanted) = (record.len(), TradeRow::COLUMNS.len());
     if found != wanted {
-        return Err(format!("line {line}: {found} cells, where {wanted} are wanted"));
+        return Err(format!("{line}: {found} cells, where {wanted} are wanted"));
     }
-    let row = record.deserialize(None).map_err(|error| format!("line {line}: {}", cell(&error, record)))?;
+    let row = record.deserialize(None).map_err(|error| format!("{line}: {}", cell(&error, record)))?;
     Ok((line, row))
 }
 
@@ -102,9 +99,9 @@ fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
 
 fn explain(error: &csv::Error) -> String {
     match (error.position(), error.kind()) {
-        (_, csv::ErrorKind::Io(error)) => error.to_string(),
-        (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("line {}: this is no text in UTF-8", place.line()),
-        _ => error.to_string(),
+        (_, csv::ErrorKind::Io(error)) => format!(" {error}"),
+        (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("{}: this is no text in UTF-8", place.line()),
+        _ => format!(" {error}"),
     }
 }
 
@@ -152,11 +149,11 @@ mod tests {
     fn a_broken_file_is_refused_with_its_line() {
         let good = written(&[row()]);
         for (text, words) in [
-            (String::new(), &["line 1", "empty"][..]),
-            ("time,sphere\n1,2\n".into(), &["line 1", "columns"]),
-            (good.replace("20.0", "soon"), &["line 2", "until", "\"soon\""]),
-            (good.clone() + "a,paper,1\n", &["line 3", "3 cells", "16"]),
-            (good.replace(",22,", ",-22,"), &["line 2", "impacts", "-22"]),
+            (String::new(), &["1: ", "empty"][..]),
+            ("time,sphere\n1,2\n".into(), &["1: ", "columns"]),
+            (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
+            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
+            (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
         ] {
             let error = read_trade(text.as_bytes()).expect_err(&text);
             assert!(words.iter().all(|word| error.contains(word)), "{error}");

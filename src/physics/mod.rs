@@ -27,7 +27,7 @@ pub mod support;
 mod swept;
 
 pub use contact::{Class, Contact, Kind, Probe};
-pub use knobs::{Knobs, knobs};
+pub use knobs::{Effect, Knobs, knobs};
 use log::Log;
 pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
 pub use requirements::Requirements;
@@ -97,9 +97,9 @@ trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
-    /// Impulses decided at the end of the last frame that act in the next, N s by sphere.
+    /// What the next frame needs beside x and v: impulses that act in it, N s by sphere; by `moreau`, what held.
     fn transient(&self, model: &Model) -> Vec<DVec3>;
-    /// Right after [`Engine::begin`]: with these impulses (N s by sphere) pending instead of its own.
+    /// Right after [`Engine::begin`]: with what [`Engine::transient`] said instead of its own.
     fn continue_with(&mut self, transient: &[DVec3]);
     /// The state for another method to begin with: pending impulses are already in its velocities.
     fn hand_over(&self, model: &Model) -> State;
@@ -210,8 +210,9 @@ impl Simulation {
         each!(&self.engine, engine => engine.at(&self.model, t))
     }
 
-    /// Impulses decided at the end of the last frame that act in the next, N s by sphere: with t, x and v all that a
-    /// run continues from.
+    /// With t, x and v all that a run continues from: impulses decided at the end of the last frame that act in the
+    /// next, N s by sphere. By `moreau`, as many rows as contacts held in the last frame: sphere, other sphere (or −1
+    /// − wall), impulse in N s.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }

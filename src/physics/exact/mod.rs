@@ -6,6 +6,7 @@
 //! instant, islands of resting contacts are settled (`rest`). Reading never rewrites a line (`flight`), and frames only
 //! say where to pause: neither changes a bit of the trajectory.
 
+mod bounce;
 mod cells;
 mod curved;
 mod flight;
@@ -175,8 +176,9 @@ impl<D: Detector> Exact<D> {
         log.probes.clear();
     }
 
-    fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
+    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
         self.detector.report(self.frame.time, end, log);
+        self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
         let looked_at = std::mem::take(&mut self.evaluations);
@@ -199,11 +201,11 @@ impl<D: Detector> Exact<D> {
             return Ok(Turn::Event);
         }
         if !log.contacts.is_empty() && time > self.now && self.now > self.frame.time {
-            return Ok(self.close_frame(log, self.now));
+            return Ok(self.close_frame(model, log, self.now));
         }
         let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
         if time > end {
-            return Ok(self.close_frame(log, end));
+            return Ok(self.close_frame(model, log, end));
         }
         self.advance_clock(time, model.len())?;
         match rank.0 {

@@ -1,5 +1,6 @@
 //! Which contacts rest, and the islands they form: from one event of an island to the next.
 
+mod carried;
 mod settling;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,6 +17,7 @@ use crate::physics::log::Log;
 use crate::physics::parts::{part_ahead, part_end};
 use crate::physics::support::{Fate, islands};
 use crate::physics::{Class, Kind, Model, Stall, State};
+use carried::Load;
 
 /// No island.
 const NONE: u32 = u32::MAX;
@@ -32,6 +34,7 @@ struct Held {
     /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
     /// again then, and no rest announced before.
     settles_at: f64,
+    load: Load,
 }
 
 /// Spheres connected by resting contacts, until something changes.
@@ -203,7 +206,7 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, v_n: meeting.v_n, settles_at: bounces_until };
+        let held = Held { part, announced: false, v_n: meeting.v_n, settles_at: bounces_until, load: Load::default() };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {

@@ -31,7 +31,7 @@ impl<D: Detector> Exact<D> {
         }
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.lines[i].v.length() {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
@@ -43,7 +43,7 @@ impl<D: Detector> Exact<D> {
 
     fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
         if self.rests.drop(key) {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             let row = meeting.row(self.now, Class::Release, 0.0, meeting.v_n);
             log.contacts.push(row);
             log.event(row);
@@ -150,6 +150,7 @@ impl<D: Detector> Exact<D> {
             self.flight.accelerate(i, settled.a[place]);
         }
         self.announce(model, log, keys, &settled);
+        self.carry(keys, &settled.forces);
         let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
         let opening: Vec<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
         let (stuck, opening): (Vec<Key>, Vec<Key>) = opening.into_iter().partition(|&key| self.instant.is_stuck(key));
@@ -209,7 +210,7 @@ impl<D: Detector> Exact<D> {
     /// Writes a `rest` row for every contact that begins to carry a load.
     fn announce(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
-            let mut meeting = self.seen(model, key);
+            let mut meeting = self.seen(model, key, self.now);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
             if settled.fate[index] != Fate::Loaded || held.announced || held.settles_at > self.now {
                 continue;
