@@ -33,8 +33,8 @@ const LEAST_SWEEPS: usize = 20;
 /// Sweeps after which the residual is looked at even though rows still move: with tolerance 0 they always do.
 const SWEEPS_PER_LOOK: usize = 16;
 
-/// Relative size of what rounding leaves of a body's velocity after many pushes.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Relative size of what rounding leaves of a body's velocity after many pushes, about 1e-13.
+const ROUNDING: f64 = 512.0 * f64::EPSILON;
 
 /// Share by which an island's kinetic energy may grow before it counts as a gain: rounding.
 const GAIN: f64 = 1e-12;

@@ -185,6 +185,11 @@ impl Rests {
         self.curved_time + if self.curves > 0 { now - self.curved_since } else { 0.0 }
     }
 
+    /// Counts the time of curved rest from `now` (s) on.
+    pub(super) fn forget_curved_time(&mut self, now: f64) {
+        (self.curved_time, self.curved_since) = (0.0, now);
+    }
+
     fn count_curves(&mut self, now: f64, change: isize) {
         self.curved_time = self.curved_time(now);
         self.curved_since = now;
