@@ -3,6 +3,9 @@
 //! `cargo test --test extremes -- --nocapture` prints it. Each cell says what was found; what must hold for it, and of
 //! `paper` what fails and how, is checked while it is filled in.
 
+// The table goes to whoever asks for it with `--nocapture`.
+#![allow(clippy::print_stdout)]
+
 mod support;
 
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
