@@ -3,7 +3,7 @@
 mod support;
 
 use carom::measure::verify::{Depth, GOLDEN, Golden, Lab};
-use carom::physics::{Progress, Scene, Simulation, State, Until};
+use carom::physics::{Method, Progress, Scene, Settings, Simulation, State, Until};
 use proptest::{prelude::*, test_runner::RngSeed};
 use support::{gas, paper, paper_scene, run_to};
 
