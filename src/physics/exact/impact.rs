@@ -16,6 +16,10 @@ use crate::physics::{Class, Contact, Kind, Model, Stall};
 /// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
 const COLLAPSE: u32 = 1000;
 
+/// Impacts by then of another contact that belongs to the same collapse, and rests with it: the limit of the chain is
+/// that none of them approaches any longer.
+const COLLAPSE_SHARE: u32 = 100;
+
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
 
@@ -42,9 +46,18 @@ const CLOCK: f64 = 1e-3;
 pub(super) struct Instant {
     events: u64,
     impacts: BTreeMap<Key, u32>,
+    /// Whether a chain of impacts has collapsed.
+    collapsed: bool,
     /// Events in this stretch, and the time when it began, s.
     stretch: u64,
     since: f64,
+}
+
+impl Instant {
+    /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
+    pub(super) fn has_collapsed(&self, key: Key) -> bool {
+        self.collapsed && self.impacts.get(&key).is_some_and(|&count| count > COLLAPSE_SHARE)
+    }
 }
 
 /// Two bodies that touch.
@@ -63,6 +76,12 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
+    /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
+    /// speed at which they approach or part.
+    pub(super) fn hops_within_rounding(&self, pull: f64) -> bool {
+        self.v_n * self.v_n <= 2.0 * pull * HOP * self.point.abs().max_element().max(self.reach)
+    }
+
     /// The row of this contact: `impulse` in N s, v_n afterwards in m/s.
     pub(super) fn row(&self, time: f64, class: Class, impulse: f64, separation_speed: f64) -> Contact {
         let (kind, a, b) = self.key;
@@ -88,7 +107,7 @@ impl Exact {
         let Exact { instant, now, .. } = self;
         if time > *now {
             *now = time;
-            instant.events = 0;
+            (instant.events, instant.collapsed) = (0, false);
             if !instant.impacts.is_empty() {
                 instant.impacts.clear();
             }
@@ -140,9 +159,9 @@ impl Exact {
     /// The bodies of a contact now, their lines brought to the present.
     pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
         let (kind, a, b) = key;
-        self.bring(a);
+        self.bring(model, a);
         if kind == Kind::Pair {
-            self.bring(b);
+            self.bring(model, b);
         }
         self.seen(model, key)
     }
@@ -179,7 +198,8 @@ impl Exact {
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
-        match self.class(model, log, &meeting) {
+        let class = self.class(model, log, &meeting);
+        match class {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
                 self.rests.propose(
@@ -209,11 +229,10 @@ impl Exact {
             // the flight would last no longer than the clock can tell
             return Class::Rest;
         }
-        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        if pressed && hop <= HOP * meeting.point.abs().max_element().max(meeting.reach) {
-            // the flight would go no higher than coordinates can tell
+        if pressed && meeting.hops_within_rounding(-meeting.a_n) {
             return Class::Rest;
         }
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
         if pressed && hop <= SMALL_HOP * meeting.reach && self.bounces_left(model, meeting) > 0.0 {
             return Class::Rest;
         }
@@ -225,7 +244,8 @@ impl Exact {
         if class == Class::Collide && restitution < 1.0 && self.instant.events > u64::from(COLLAPSE) {
             let count = self.instant.impacts.entry(meeting.key).or_default();
             *count += 1;
-            if *count > COLLAPSE {
+            self.instant.collapsed |= *count > COLLAPSE;
+            if self.instant.has_collapsed(meeting.key) {
                 log.tallies.collapses += 1;
                 return Class::Rest;
             }

@@ -139,10 +139,10 @@ impl Engine for Exact {
         self.frame.step
     }
 
-    fn at(&self, _: &Model, t: f64) -> State {
+    fn at(&self, model: &Model, t: f64) -> State {
         let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
         let mut state = self.flight.then(t);
-        self.rests.bend(&mut state);
+        self.rests.bend(model, &mut state);
         state
     }
 
@@ -161,6 +161,7 @@ impl Exact {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.flight.forget();
+        self.rests.forget();
         log.contacts.clear();
         log.probes.clear();
     }

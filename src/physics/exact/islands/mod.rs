@@ -3,6 +3,7 @@
 mod settling;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc as Shared;
 
 use super::Exact;
 use super::curved::{Arc, Body, Closed, On};
@@ -28,6 +29,8 @@ struct Held {
     announced: bool,
     /// v_n when it was proposed, m/s.
     v_n: f64,
+    /// What its load does to the two bodies, m/s²: they would fall back together with it after a hop.
+    pressure: f64,
     /// Until when ever smaller bounces go on in truth, s: the rest is announced then.
     bounces_until: f64,
 }
@@ -45,8 +48,8 @@ struct Island {
 /// A curved motion, and the chord parabola that stands for it now.
 #[derive(Debug, Clone)]
 struct Curve {
-    arc: Arc,
-    contacts: Vec<Contact>,
+    arc: Shared<Arc>,
+    contacts: Shared<[Contact]>,
     /// Where on the arc the chord begins, s.
     offset: f64,
     /// When the chord began, s; infinite once the spheres have been brought off it.
@@ -87,8 +90,8 @@ fn closed<'a>(model: &'a Model, contacts: &[Contact]) -> Vec<Closed<'a>> {
 impl Curve {
     /// The motion of bodies from now on.
     fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<Contact>, now: f64) -> Curve {
-        let arc = Arc::new(bodies, &closed(model, &contacts));
-        Curve { arc, contacts, offset: 0.0, from: now, length: 0.0, changes: false }.chord()
+        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts)));
+        Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
     /// The next chord, on this arc or on the one after it.
@@ -97,7 +100,7 @@ impl Curve {
         if offset < self.arc.length {
             return Curve { offset, from: now, ..self }.chord();
         }
-        let arc = self.arc.go_on(&closed(model, &self.contacts));
+        let arc = Shared::new(self.arc.go_on(&closed(model, &self.contacts)));
         Curve { arc, offset: 0.0, from: now, ..self }.chord()
     }
 
@@ -109,10 +112,23 @@ impl Curve {
         self
     }
 
-    /// The spheres `time` (s) after the chord's beginning.
+    /// The spheres `time` (s) after the chord's beginning, read from the arc.
     fn at(&self, time: f64) -> Vec<Body> {
         self.arc.at(self.offset + time.min(self.length))
     }
+
+    /// The same, integrated.
+    fn real(&self, model: &Model, time: f64) -> Vec<Body> {
+        self.arc.real(self.offset + time.min(self.length), &closed(model, &self.contacts))
+    }
+}
+
+/// A chord of this frame that is over: its spheres, and until when it was followed, s.
+#[derive(Debug, Clone)]
+struct Past {
+    spheres: Vec<usize>,
+    curve: Curve,
+    until: f64,
 }
 
 /// All resting contacts.
@@ -126,6 +142,8 @@ pub(super) struct Rests {
     island_of: Vec<u32>,
     /// Spheres whose islands must be settled before the clock goes on.
     dirty: Vec<usize>,
+    /// In the order of their ends.
+    past: Vec<Past>,
     curves: usize,
     curved_since: f64,
     curved_time: f64,
@@ -196,7 +214,7 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, v_n: meeting.v_n, bounces_until };
+        let held = Held { part, announced: false, v_n: meeting.v_n, pressure: 0.0, bounces_until };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {
@@ -267,18 +285,30 @@ impl Rests {
         self.islands[number as usize] = Some(island);
     }
 
-    /// Puts the spheres of curved islands where their arcs are, in a state read at or after the last event.
-    pub(super) fn bend(&self, state: &mut State) {
-        for island in self.islands.iter().flatten() {
-            let Some(curve) = &island.curve else { continue };
-            if curve.from > state.t {
-                continue;
-            }
-            let bodies = curve.at(state.t - curve.from);
-            for (body, &i) in bodies.iter().zip(&island.spheres) {
-                (state.x[i], state.v[i]) = (body.x, body.v);
-            }
+    /// Puts the spheres of curved islands where they really are, in a state of the last frame: their lines are chords.
+    pub(super) fn bend(&self, model: &Model, state: &mut State) {
+        let over = self.past.iter().filter(|past| state.t < past.until).map(|past| (&past.spheres, &past.curve));
+        let current = self.islands.iter().flatten();
+        let current = current.filter_map(|island| Some((&island.spheres, island.curve.as_ref()?)));
+        let mut real: Vec<(usize, Body)> = Vec::new();
+        for (spheres, curve) in over.chain(current).filter(|(_, curve)| curve.from <= state.t) {
+            real.extend(spheres.iter().copied().zip(curve.real(model, state.t - curve.from)));
         }
+        for (i, body) in real {
+            (state.x[i], state.v[i]) = (body.x, body.v);
+        }
+    }
+
+    /// Remembers a chord that was followed until `now` (s), for states read within the frame.
+    fn keep(&mut self, spheres: &[usize], curve: &Curve, now: f64) {
+        if curve.from < now {
+            self.past.push(Past { spheres: spheres.to_vec(), curve: curve.clone(), until: now });
+        }
+    }
+
+    /// From here on, frames before are forgotten.
+    pub(super) fn forget(&mut self) {
+        self.past.clear();
     }
 }
 
