@@ -435,8 +435,14 @@ impl Search<'_> {
     /// [`grazes`] for a touch at `t`.
     fn grazes(&self, t: f64, at: &Touch, closing: f64) -> bool {
         let (x, v, a) = (self.path.at(t), self.path.velocity(t), self.path.a);
-        let bends = at.normal.dot(a) + curvature(self.face, at.part, at.normal, v, self.r);
         let size = x.abs().max_element().max(self.r);
+        let most = a.length() + v.length_squared() / self.r;
+        if closing * closing > 2.0 * most * GRAZE * size {
+            return false;
+        }
+        // as in `approached`: over an edge a fast sphere leaves what it was pressed against
+        let ahead = part_ahead(self.face, x, v, a, self.r);
+        let bends = at.normal.dot(a) + curvature(self.face, ahead, at.normal, v, self.r);
         grazes(closing, bends, v.length(), a.length(), self.r, size)
     }
 

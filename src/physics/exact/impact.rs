@@ -199,6 +199,18 @@ impl Exact {
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
         let class = self.class(model, log, &meeting);
+        if super::tracing() {
+            eprintln!(
+                "{:?} meet {key:?} v_n {:e} a_n {:e} gap {:e} -> {class:?}",
+                self.now, meeting.v_n, meeting.a_n, meeting.gap
+            );
+            if class == Class::Leave && key.0 == Kind::Wall {
+                let path = self.flight.path(key.1, self.now);
+                let (face, r) = (&model.faces[key.2], model.radii[key.1]);
+                let at = touch(face, path.x, r);
+                eprintln!("    {path:?} r {r} part {:?} ahead {:?} normal {} predicted {:?} plan {:?}", at.part, part_ahead(face, path.x, path.v, path.a, r), at.normal, crate::physics::contact_time::sphere_wall(&path, r, face, f64::INFINITY), self.plans[key.1]);
+            }
+        }
         match class {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest => {
