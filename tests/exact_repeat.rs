@@ -23,7 +23,7 @@ fn whole(scene: &Scene, until: f64, dt: f64) -> State {
 }
 
 /// Scenes that fly, rest, slide, stick and crowd, and how long they are run, s.
-const SCENES: [(&str, f64); 9] = [
+const SCENES: [(&str, f64); 10] = [
     ("paper-0", 14.0),
     ("paper-1", 16.0),
     ("paper-2", 18.0),
@@ -33,6 +33,7 @@ const SCENES: [(&str, f64); 9] = [
     ("corner", 10.0),
     ("newtons-cradle", 20.0),
     ("galton", 3.0),
+    ("zigzag", 15.0),
 ];
 
 #[test]

@@ -4,6 +4,7 @@ use std::io::{IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::accuracy;
 use super::arguments::Run;
 use super::failure::{Failure, note};
 use super::output::{Output, Target};
@@ -21,10 +22,15 @@ const STEPS: f64 = 1000.0;
 pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     refuse_same_target(arguments)?;
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
-    let settings = arguments.solver.over(opened.scene.solver);
+    let until = arguments.until.unwrap_or(opened.scene.duration);
+    let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, until, Some(signals))?;
+    said.iter().for_each(|said| note(said));
+    for warning in scene::warnings(&opened.scene, settings) {
+        note(&format!("{}: {warning}", opened.key));
+    }
     let mut recorder = Recorder {
         simulation: Simulation::new(&opened.scene, settings),
-        until: arguments.until.unwrap_or(opened.scene.duration),
+        until,
         states: table::<StateRow>(arguments.states.as_ref())?,
         events: table::<EventRow>(arguments.events.as_ref())?,
         impacts: 0,

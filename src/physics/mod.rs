@@ -9,9 +9,12 @@ use glam::DVec3;
 
 pub mod contact;
 pub mod contact_time;
+mod detector;
 mod exact;
+mod knobs;
 mod log;
 pub mod model;
+mod moreau;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
@@ -21,8 +24,10 @@ mod requirements;
 mod sealed;
 pub mod state;
 pub mod support;
+mod swept;
 
 pub use contact::{Class, Contact, Kind, Probe};
+pub use knobs::{Effect, Knobs, knobs};
 use log::Log;
 pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
 pub use requirements::Requirements;
@@ -69,7 +74,9 @@ pub struct Description {
 pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
+        Method::Swept => &swept::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
+        Method::Moreau => &moreau::DESCRIPTION,
     }
 }
 
@@ -103,8 +110,12 @@ trait Engine {
 enum Engines {
     /// The source paper's.
     Paper(paper::Paper),
-    /// Event by event.
-    Exact(exact::Exact),
+    /// Event by event, contact times found by looking.
+    Swept(exact::Exact<swept::Advance>),
+    /// Event by event, contact times by roots.
+    Exact(exact::Exact<exact::Roots>),
+    /// Velocity-level time-stepping.
+    Moreau(moreau::Moreau),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -112,7 +123,9 @@ macro_rules! each {
     ($engines:expr, $engine:ident => $call:expr) => {
         match $engines {
             Engines::Paper($engine) => $call,
+            Engines::Swept($engine) => $call,
             Engines::Exact($engine) => $call,
+            Engines::Moreau($engine) => $call,
         }
     };
 }
@@ -121,7 +134,9 @@ impl Engines {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+            Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
+            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
         }
     }
 }

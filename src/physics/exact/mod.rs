@@ -16,11 +16,13 @@ mod load;
 mod prediction;
 mod queue;
 mod rest;
+mod roots;
 
 use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::Cells;
@@ -29,6 +31,7 @@ use impact::Instant;
 use islands::Rests;
 use prediction::Plan;
 use queue::Queue;
+pub(super) use roots::Roots;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -45,8 +48,9 @@ const FEW: usize = 64;
 
 /// The event-driven method at work.
 #[derive(Debug, Clone)]
-pub(super) struct Exact {
+pub(super) struct Exact<D> {
     settings: Settings,
+    detector: D,
     /// Time of the last event, s.
     now: f64,
     frame: Frame,
@@ -81,11 +85,12 @@ enum Turn {
     Frame,
 }
 
-impl Engine for Exact {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact {
+impl<D: Detector> Engine for Exact<D> {
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact<D> {
         let count = model.len();
         let mut exact = Exact {
             settings,
+            detector: D::new(settings),
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
             flight: Flight::new(model, &state),
@@ -123,8 +128,13 @@ impl Engine for Exact {
         }
     }
 
-    fn retune(&mut self, _: &Model, settings: Settings) {
+    fn retune(&mut self, model: &Model, settings: Settings) {
+        let same = settings.tolerance == self.settings.tolerance;
         self.settings = settings;
+        if !D::SOLVES && !same {
+            self.detector = D::new(settings);
+            (0..model.len()).for_each(|i| self.predict(model, i));
+        }
     }
 
     fn state(&self, model: &Model) -> Cow<'_, State> {
@@ -157,7 +167,7 @@ impl Engine for Exact {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.flight.forget();
@@ -167,6 +177,7 @@ impl Exact {
     }
 
     fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
+        self.detector.report(self.frame.time, log);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
         log.tallies.evaluations += std::mem::take(&mut self.evaluations);

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::Exact;
 use super::cells::{Near, Way};
 use super::flight::Line;
-use crate::physics::contact_time::{Path, sphere_sphere, sphere_wall, straight_pair};
+use crate::physics::contact_time::{Path, straight_pair};
+use crate::physics::detector::{Detector, Due, Span};
 use crate::physics::{Kind, Model};
 
 /// The next event of a sphere as predicted with what was known then. One is kept per sphere: whichever of two partners
@@ -22,6 +23,8 @@ pub(super) struct Plan {
     pub(super) stamp: u32,
     /// Wall or pair.
     pub(super) kind: Kind,
+    /// Whether they touch then; else it is time to look again.
+    pub(super) sure: bool,
     /// Into which cube.
     pub(super) way: Way,
 }
@@ -34,6 +37,7 @@ impl Plan {
         other: 0,
         stamp: 0,
         kind: Kind::Wall,
+        sure: true,
         way: Way { axis: 0, sign: 1 },
     };
 }
@@ -41,7 +45,7 @@ impl Plan {
 /// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
 pub(super) type Rank = (u8, usize, usize);
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Predicts sphere `i` afresh from the present on.
     pub(super) fn predict(&mut self, model: &Model, i: usize) {
         let path = self.flight.path(i, self.now);
@@ -117,11 +121,11 @@ impl Exact {
                 continue;
             }
             count += 1;
-            let before = plan.contact - self.now;
-            let Some(t) = sphere_wall(path, model.radii[i], &model.faces[wall], before) else { continue };
-            let time = self.now + t;
+            let span = self.span_before(plan.contact);
+            let Some(due) = self.detector.wall(path, model.radii[i], &model.faces[wall], span) else { continue };
+            let time = self.now + due.after;
             if time < plan.contact {
-                (plan.contact, plan.kind, plan.other) = (time, Kind::Wall, wall as u32);
+                (plan.contact, plan.kind, plan.other, plan.sure) = (time, Kind::Wall, wall as u32, due.sure);
             }
         }
         count
@@ -130,7 +134,7 @@ impl Exact {
     /// Looks at the pairs of sphere `i` and those near it, itself among them or not; returns how many.
     #[inline]
     fn pairs(&self, i: usize, path: &Path, near: &Near, plan: &mut Plan) -> u64 {
-        match self.flight.common() {
+        match self.flight.common().filter(|_| D::SOLVES) {
             Some(DVec3::ZERO) => self.alike(i, path, near.slots(), |line, dt| (line.x + line.v * dt, line.v), plan),
             Some(a) => {
                 let then = |line: &Line, dt: f64| (line.x + (line.v + a * (0.5 * dt)) * dt, line.v + a * dt);
@@ -167,7 +171,7 @@ impl Exact {
                 let time = self.now + t;
                 // what j meets before makes it look around anew, and find i then
                 if time <= self.plans[j as usize].contact {
-                    self.offer(i, j as usize, time, plan);
+                    self.offer(i, j as usize, Due { after: t, sure: true }, plan);
                 }
             }
         }
@@ -178,27 +182,33 @@ impl Exact {
     fn pair(&self, i: usize, path: &Path, j: usize, plan: &mut Plan) -> u64 {
         let line = &self.flight.lines[j];
         let reach = self.flight.lines[i].r + line.r;
-        let found = if self.flight.common() == Some(DVec3::ZERO) {
-            straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach)
+        let found = if D::SOLVES && self.flight.common() == Some(DVec3::ZERO) {
+            let t = straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach);
+            t.map(|after| Due { after, sure: true })
         } else {
             let relative = path.relative_to(&self.flight.path(j, self.now));
-            sphere_sphere(&relative, reach, plan.contact - self.now)
+            self.detector.pair(&relative, reach, self.span_before(plan.contact))
         };
-        let Some(t) = found else { return 1 };
-        self.offer(i, j, self.now + t, plan)
+        let Some(due) = found else { return 1 };
+        self.offer(i, j, due, plan)
     }
 
-    /// Plans to meet sphere `j` at `time` (s) if nothing is planned before; returns 0 if the two rest on each other.
+    /// Plans to meet sphere `j` if nothing is planned before; returns 0 if the two rest on each other.
     #[inline]
-    fn offer(&self, i: usize, j: usize, time: f64, plan: &mut Plan) -> u64 {
+    fn offer(&self, i: usize, j: usize, due: Due, plan: &mut Plan) -> u64 {
+        let time = self.now + due.after;
         if time < plan.contact || time == plan.contact && self.wins_tie(i, j, plan) {
             if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
                 return 0;
             }
-            (plan.contact, plan.kind) = (time, Kind::Pair);
+            (plan.contact, plan.kind, plan.sure) = (time, Kind::Pair, due.sure);
             (plan.other, plan.stamp) = (j as u32, self.stamps[j]);
         }
         1
+    }
+
+    fn span_before(&self, time: f64) -> Span {
+        Span { now: self.now, before: time - self.now }
     }
 
     /// Among pairs at one time the lower (a, b) comes first; walls come before pairs.

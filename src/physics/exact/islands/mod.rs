@@ -12,6 +12,7 @@ use super::impact::{Meeting, ZENO};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::Part;
+use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::parts::{part_ahead, part_end};
 use crate::physics::support::{Fate, islands};

@@ -2,7 +2,7 @@
 
 use super::*;
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
     pub(in crate::physics::exact) fn bring(&mut self, model: &Model, i: usize) {
         let now = self.now;
