@@ -204,20 +204,7 @@ impl<D: Detector> Exact<D> {
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
-        let class = self.class(model, log, &meeting);
-        if super::tracing() {
-            eprintln!(
-                "{:?} meet {key:?} v_n {:e} a_n {:e} gap {:e} -> {class:?}",
-                self.now, meeting.v_n, meeting.a_n, meeting.gap
-            );
-            if class == Class::Leave && key.0 == Kind::Wall {
-                let path = self.flight.path(key.1, self.now);
-                let (face, r) = (&model.faces[key.2], model.radii[key.1]);
-                let at = touch(face, path.x, r);
-                eprintln!("    {path:?} r {r} part {:?} ahead {:?} normal {} predicted {:?} plan {:?}", at.part, part_ahead(face, path.x, path.v, path.a, r), at.normal, crate::physics::contact_time::sphere_wall(&path, r, face, f64::INFINITY), self.plans[key.1]);
-            }
-        }
-        match class {
+        match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest if self.brushes(&meeting) => {
                 self.turn_back(model, &meeting);
@@ -255,7 +242,8 @@ impl<D: Detector> Exact<D> {
             return Class::Rest;
         }
         let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        if pressed && hop <= SMALL_HOP * meeting.reach && self.bounces_left(model, meeting) > 0.0 {
+        let dies_out = self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
+        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out {
             return Class::Rest;
         }
         let mut law = model.law;
@@ -285,6 +273,13 @@ impl<D: Detector> Exact<D> {
             return 0.0;
         }
         2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
+    }
+
+    /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
+    /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end.
+    fn hums(&self, model: &Model, (kind, a, _): Key) -> bool {
+        let law = &model.law;
+        kind == Kind::Wall && law.wall_restitution == 1.0 && (law.tangential == 1.0 || self.rests.count(a) > 0)
     }
 
     /// Rounding of the clock, s.
