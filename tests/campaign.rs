@@ -1,6 +1,6 @@
 //! Thousands of random scenes by the event-driven method: nothing hangs, escapes, gains energy or goes deep.
 //!
-//! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture` is the whole campaign; the ordinary suite
+//! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture random` is the whole campaign; the ordinary suite
 //! runs the first forty of the same scenes. `CAROM_CAMPAIGN_FROM` sets the first seed.
 
 #[path = "support/random.rs"]
@@ -220,15 +220,28 @@ fn number(name: &str, otherwise: u64) -> u64 {
 }
 
 /// Seeds that failed once.
-const MENDED: [u64; 31] = [
-    65, 124, 132, 137, 141, 147, 152, 167, 168, 175, 177, 179, 201, 226, 251, 267, 281, 295, 306, 322, 325, 360, 371,
-    396, 421, 424, 447, 461, 473, 491, 590,
+const MENDED: [u64; 27] = [
+    124, 132, 137, 141, 147, 152, 168, 175, 177, 179, 201, 226, 251, 267, 281, 295, 306, 322, 360, 371, 396, 421, 424,
+    447, 461, 473, 590,
 ];
 
 /// More of them, and for how many half seconds: some chatter without a rest speed, a million events a second and more,
 /// some roll over each other most of the time; the campaign waits for that.
-const LABORIOUS: [(u64, u32); 9] =
-    [(50, 4), (74, 5), (103, 2), (153, 6), (164, 8), (184, 9), (271, 8), (661, 4), (679, 14)];
+const LABORIOUS: [(u64, u32); 13] = [
+    (50, 4),
+    (65, 8),
+    (74, 5),
+    (103, 2),
+    (153, 6),
+    (164, 8),
+    (167, 8),
+    (184, 9),
+    (271, 8),
+    (325, 4),
+    (491, 9),
+    (661, 4),
+    (679, 14),
+];
 
 #[test]
 fn seeds_that_ever_failed_stay_mended() {
