@@ -10,7 +10,7 @@ use super::failure::{Failure, note};
 use super::output::{Output, Target};
 use super::signals::Signals;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
-use crate::physics::{Class, Progress, Simulation, Stall, State, Until};
+use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies, Until};
 use crate::scene;
 
 /// Units of work between two looks at signals and progress: some milliseconds. No bit of a result depends on it.
@@ -145,11 +145,23 @@ impl Recorder<'_> {
         } else {
             let _ = writeln!(std::io::stderr(), "{line}"); // if nobody can read it, the exit code still tells
         }
+        unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         stall.map_or(Ok(()), |stall| {
             note(&stall.reason);
             Err(Failure::Told)
         })
     }
+}
+
+/// What must be said of frames whose contacts the solver left unsolved, if there are any.
+fn unsolved(tallies: &Tallies) -> Option<String> {
+    (tallies.unconverged > 0).then(|| {
+        format!(
+            "in {} of {} frames the solver of the contacts did not converge: bodies may overlap there, and the result is \
+             not to be trusted; take a smaller dt or another method",
+            tallies.unconverged, tallies.frames
+        )
+    })
 }
 
 /// 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows (s).

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use super::rest::ROUNDING;
+use super::bounce::along;
 use crate::physics::contact::Key;
-use crate::physics::contact_time::{Path, curvature, pair_normal_velocity, touch};
+use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
 use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
@@ -24,6 +24,9 @@ const COLLAPSE_SHARE: u32 = 100;
 
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
+
+/// Releases of one contact without the clock advancing after which it is held for a moment.
+const STUCK: u32 = 20;
 
 /// Over how many events the clock must advance by more than rounding.
 const STRETCH: u64 = 20_000_000;
@@ -50,6 +53,8 @@ pub(super) struct Instant {
     impacts: BTreeMap<Key, u32>,
     /// Whether a chain of impacts has collapsed.
     collapsed: bool,
+    /// How often each contact has opened.
+    releases: BTreeMap<Key, u32>,
     /// Events in this stretch, and the time when it began, s.
     stretch: u64,
     since: f64,
@@ -60,6 +65,14 @@ impl Instant {
     pub(super) fn has_collapsed(&self, key: Key) -> bool {
         self.collapsed && self.impacts.get(&key).is_some_and(|&count| count > COLLAPSE_SHARE)
     }
+
+    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
+    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
+        let count = self.releases.entry(key).or_default();
+        *count += 1;
+        *count > STUCK
+    }
 }
 
 /// Two bodies that touch.
@@ -69,12 +82,14 @@ pub(super) struct Meeting {
     pub(super) point: DVec3,
     pub(super) normal: DVec3,
     /// Gap, m, and what it is measured by: r, or r₁ + r₂.
-    gap: f64,
+    pub(super) gap: f64,
     reach: f64,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
-    a_n: f64,
+    pub(super) a_n: f64,
+    /// Whether that stays so as the bodies move: the face of a wall.
+    pub(super) flat: bool,
 }
 
 impl Meeting {
@@ -110,8 +125,9 @@ impl<D: Detector> Exact<D> {
         if time > *now {
             *now = time;
             (instant.events, instant.collapsed) = (0, false);
-            if !instant.impacts.is_empty() {
+            if !instant.impacts.is_empty() || !instant.releases.is_empty() {
                 instant.impacts.clear();
+                instant.releases.clear();
             }
         }
         instant.events += 1;
@@ -169,13 +185,13 @@ impl<D: Detector> Exact<D> {
         if kind == Kind::Pair {
             self.bring(model, b);
         }
-        self.seen(model, key)
+        self.seen(model, key, self.now)
     }
 
-    /// The same without touching the lines.
-    pub(super) fn seen(&self, model: &Model, key: Key) -> Meeting {
+    /// The same at `time` (s) without touching the lines.
+    pub(super) fn seen(&self, model: &Model, key: Key, time: f64) -> Meeting {
         let (kind, a, b) = key;
-        let path = self.flight.path(a, self.now);
+        let path = self.flight.path(a, time);
         match kind {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], model.radii[a]);
@@ -185,10 +201,11 @@ impl<D: Detector> Exact<D> {
                 let slow = v_n.abs() <= SLOW * path.v.length();
                 let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
                 let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
-                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
+                let flat = part == Part::Face && at.part == part;
+                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
             }
             Kind::Pair => {
-                let other = self.flight.path(b, self.now);
+                let other = self.flight.path(b, time);
                 let relative = path.relative_to(&other);
                 let (reach, distance) = (model.radii[a] + model.radii[b], relative.x.length());
                 let (normal, gap) = (relative.x / distance, distance - reach);
@@ -196,14 +213,16 @@ impl<D: Detector> Exact<D> {
                 let across = relative.v - normal * v_n;
                 let a_n = normal.dot(relative.a) + across.length_squared() / distance;
                 let point = other.x + normal * (model.radii[b] + 0.5 * gap);
-                Meeting { key, point, normal, gap, reach, v_n, a_n }
+                Meeting { key, point, normal, gap, reach, v_n, a_n, flat: false }
             }
         }
     }
 
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let meeting = self.meeting(model, key);
+        let before = self.flight.lines[key.1];
+        let mut meeting = self.meeting(model, key);
+        self.keep_energy(model, &before, &mut meeting);
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest if self.brushes(&meeting) => {
@@ -263,18 +282,6 @@ impl<D: Detector> Exact<D> {
         class
     }
 
-    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
-    /// flights, 2 e |v_n| / (g_n (1 − e)). Only where they change nothing but the height, and where no rest speed ends
-    /// them before.
-    fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
-        let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.key.0 == Kind::Wall && law.tangential == 1.0 && e < 1.0;
-        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
-            return 0.0;
-        }
-        2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
-    }
-
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
     /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end.
     fn hums(&self, model: &Model, (kind, a, _): Key) -> bool {
@@ -297,7 +304,7 @@ impl<D: Detector> Exact<D> {
             Kind::Wall => {
                 let v = self.flight.lines[a].v;
                 let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
-                self.push(a, meeting.normal * change + slip);
+                self.push(a, along(meeting.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
@@ -316,7 +323,12 @@ impl<D: Detector> Exact<D> {
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
         log.contacts.push(row);
         log.event(row);
-        self.follow_up(model, log, meeting.key)
+        self.follow_up(model, log, meeting.key)?;
+        if target == 0.0 && meeting.a_n < 0.0 {
+            // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
+            self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, self.now);
+        }
+        Ok(())
     }
 
     /// The bodies of a contact have got new velocities: rests that this breaks end, and what comes next is predicted.
@@ -333,41 +345,8 @@ impl<D: Detector> Exact<D> {
         Ok(())
     }
 
-    /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
-    fn brushes(&self, meeting: &Meeting) -> bool {
-        let (kind, a, b) = meeting.key;
-        let path = |i: usize| self.flight.path(i, self.now);
-        let size = |of: fn(&Path) -> DVec3| {
-            of(&path(a)).length() + if kind == Kind::Pair { of(&path(b)).length() } else { 0.0 }
-        };
-        meeting.v_n >= -8.0 * f64::EPSILON * size(|path| path.v) && meeting.a_n > ROUNDING * size(|path| path.a)
-    }
-
-    /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
-    /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
-    fn turn_back(&mut self, model: &Model, meeting: &Meeting) {
-        let (kind, a, b) = meeting.key;
-        let change = -meeting.v_n + self.hop_speed(meeting).max(-meeting.v_n);
-        if kind == Kind::Wall {
-            self.push(a, meeting.normal * change);
-        } else {
-            let push = meeting.normal * (change / (model.inverse_masses[a] + model.inverse_masses[b]));
-            self.push(a, push * model.inverse_masses[a]);
-            self.push(b, push * -model.inverse_masses[b]);
-        }
-        self.part(model, meeting.key, 0.0);
-    }
-
-    /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
-    /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
-    fn hop_speed(&self, meeting: &Meeting) -> f64 {
-        let path = self.flight.path(meeting.key.1, self.now);
-        let pressing = (-meeting.normal.dot(path.a)).max(0.0);
-        f64::EPSILON * path.v.length() + self.tick() * pressing
-    }
-
     /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
-    fn push(&mut self, i: usize, change: DVec3) {
+    pub(super) fn push(&mut self, i: usize, change: DVec3) {
         let line = self.flight.lines[i];
         self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
@@ -380,7 +359,7 @@ impl<D: Detector> Exact<D> {
         let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
         let mut nudge = f64::EPSILON * self.flight.lines[i].v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             if meeting.v_n >= least || meeting.v_n.is_nan() {
                 return;
             }

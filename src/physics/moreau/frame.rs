@@ -71,7 +71,7 @@ impl Moreau {
                 Ok(2 * (to - from) as u64)
             }
             Stage::Solve { round } => {
-                let (done, work) = self.solver.go_on(model, &self.free);
+                let (done, work) = self.solver.go_on(model, &self.free, &self.end.v, &self.rows);
                 if done {
                     self.look_again(model, round + 1);
                 }

@@ -7,7 +7,8 @@
 //! c of a contact is gap / h, so that bodies may come as near as they are apart and no nearer: nothing overlaps but by
 //! what the solver leaves undone. Bodies that approach faster than `rest_speed` rebound instead from where they are,
 //! c = e v_n (Newton's law in Moreau's form, v_n at the start of the frame); against a wall they lose their share of
-//! the tangential velocity first. A contact that held in the last frame does not collide.
+//! the tangential velocity first. A contact that held in the last frame does not collide. No rebound adds kinetic
+//! energy to the spheres that it concerns.
 //!
 //! Rows are found from the free velocities and looked for again with the solution: what a struck sphere reaches in the
 //! same frame becomes a row too, until nothing new is met. So nothing passes through anything at any speed.
@@ -44,8 +45,9 @@ pub(super) const DESCRIPTION: Description = Description {
     source: "Moreau 1988; Jean 1999; Acary, Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, ch. 10, 12",
     knobs: "dt sets the error; tolerance is the solver's: a contact may close by tolerance·(rest_speed + |a|·dt + its \
             closing speed) too fast, and overlap by tolerance·r at most (above 0.1 it counts as 0.1)",
-    avoid: "for times and orders of impacts and for chains of them (Newton's cradle: all impacts of a frame are one), \
-            and where energy must last",
+    avoid: "for times and orders of impacts and for chains of them (all impacts of a frame are one: no Newton's \
+            cradle), and where energy must last: at e = 1 and dt 0.001 that of bouncing-49 sways by 1e-3 and that of \
+            elastic-666 by 5e-3 (dt 0.01: 1e-2 and 3e-2)",
 };
 
 /// A contact that held in the last frame, and its impulse, N s.

@@ -1,5 +1,6 @@
 //! Which contacts rest, and the islands they form: from one event of an island to the next.
 
+mod carried;
 mod settling;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,6 +18,7 @@ use crate::physics::log::Log;
 use crate::physics::parts::{part_ahead, part_end};
 use crate::physics::support::{Fate, islands};
 use crate::physics::{Class, Kind, Model, Stall, State};
+use carried::Load;
 
 /// No island.
 const NONE: u32 = u32::MAX;
@@ -32,8 +34,10 @@ struct Held {
     v_n: f64,
     /// What its load does to the two bodies, m/s²: they would fall back together with it after a hop.
     pressure: f64,
-    /// Until when ever smaller bounces go on in truth, s: the rest is announced then.
-    bounces_until: f64,
+    /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
+    /// again then, and no rest announced before.
+    settles_at: f64,
+    load: Load,
 }
 
 /// Spheres connected by resting contacts, until something changes.
@@ -111,6 +115,11 @@ impl Curve {
         self.length = self.arc.chord(self.offset);
         self.changes = self.arc.changes && self.length >= left;
         self
+    }
+
+    /// Ends the chord after `time` (s), if that is sooner, to have the island settled anew.
+    fn cut(self, time: f64) -> Curve {
+        if time < self.length { Curve { length: time, changes: true, ..self } } else { self }
     }
 
     /// The spheres `time` (s) after the chord's beginning, read from the arc.
@@ -194,6 +203,11 @@ impl Rests {
         self.curved_time + if self.curves > 0 { now - self.curved_since } else { 0.0 }
     }
 
+    /// Counts the time of curved rest from `now` (s) on.
+    pub(super) fn forget_curved_time(&mut self, now: f64) {
+        (self.curved_time, self.curved_since) = (0.0, now);
+    }
+
     fn count_curves(&mut self, now: f64, change: isize) {
         self.curved_time = self.curved_time(now);
         self.curved_since = now;
@@ -215,7 +229,14 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, v_n: meeting.v_n, pressure: 0.0, bounces_until };
+        let held = Held {
+            part,
+            announced: false,
+            v_n: meeting.v_n,
+            settles_at: bounces_until,
+            pressure: 0.0,
+            load: Load::default(),
+        };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {
@@ -233,6 +254,13 @@ impl Rests {
             self.of[b].retain(|&other| other != key);
         }
         self.held.remove(&key).is_some_and(|held| held.announced)
+    }
+
+    /// Holds a contact that opens until `time` (s) all the same.
+    fn hold_until(&mut self, key: Key, time: f64) {
+        if let Some(held) = self.held.get_mut(&key) {
+            held.settles_at = time;
+        }
     }
 
     /// The spheres of every island that a dirty sphere belongs or is connected to, ascending.
