@@ -170,7 +170,7 @@ impl<D: Detector> Engine for Exact<D> {
         }
         let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
         let mut state = self.flight.then(t);
-        self.rests.bend(&mut state);
+        self.rests.bend(model, &mut state);
         state
     }
 
@@ -196,6 +196,7 @@ impl<D: Detector> Exact<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.flight.forget();
+        self.rests.forget();
         log.contacts.clear();
         log.probes.clear();
     }
