@@ -144,7 +144,8 @@ fn a_run_continues_bit_for_bit_from_where_another_one_was_and_how_it_began() {
             let mut original = run.clone();
             original.record_events(true);
             next.record_events(true);
-            (original.take_events(), next.take_events());
+            original.take_events();
+            next.take_events();
             for _ in 0..3 {
                 assert_eq!(original.advance(Until::Frame, u64::MAX), next.advance(Until::Frame, u64::MAX));
                 assert_eq!((next.state(), next.step()), (original.state(), original.step()), "{name}");
