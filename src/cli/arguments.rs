@@ -42,6 +42,8 @@ pub(super) enum Command {
     Render(Render),
     /// Measure how much accuracy costs how much time
     Measure(Measure),
+    /// Measure known results of physics and mathematics on this machine
+    Verify(Verify),
     /// Print the completions for a shell
     Completions(Completions),
     /// Print the manual page
@@ -168,6 +170,13 @@ pub(super) struct Measure {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct Verify {
+    /// Some seconds instead of some minutes: fewer digits, fewer spheres
+    #[arg(long)]
+    pub(super) quick: bool,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct Completions {
     /// The shell
     #[arg(value_enum)]
@@ -186,9 +195,19 @@ pub(super) struct Solver {
     /// Intersection tolerance, a degree [default: the scene's]
     #[arg(long, value_name = "D", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Choose the cheapest method and setting that meets this position error, m, by a few seconds of trying
+    #[arg(long, value_name = "E", value_parser = numbers::positive, allow_hyphen_values = true,
+          conflicts_with_all = ["dt", "tolerance"])]
+    accuracy: Option<f64>,
 }
 
 impl Solver {
+    /// The position error that is asked for, m, and the methods that may meet it.
+    pub(super) fn accuracy(&self) -> Option<(f64, Vec<Method>)> {
+        let methods = self.method.map_or(Method::ALL.to_vec(), |method| vec![method]);
+        self.accuracy.map(|error| (error, methods))
+    }
+
     /// The scene's settings, but for what the command line says.
     pub(super) fn over(&self, scene: Settings) -> Settings {
         Settings {

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::{self, IsTerminal, Write};
 use std::thread;
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -17,6 +18,9 @@ use crate::scene;
 
 /// Steps of the progress bar: finer than any terminal shows.
 const STEPS: f64 = 1000.0;
+
+/// Time between two pictures of the progress bar: it counts seconds.
+const TICK: Duration = Duration::from_millis(250);
 
 pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
     refuse_same_target(arguments)?;
@@ -53,12 +57,12 @@ fn allowed(arguments: &Measure) -> Vec<Method> {
 }
 
 fn ladder(arguments: &Measure) -> Ladder {
-    let or = |list: &[f64], usual: Vec<f64>| if list.is_empty() { usual } else { list.to_vec() };
-    let usual = Ladder::default();
+    let listed = |list: &Vec<f64>| (!list.is_empty()).then(|| list.clone());
+    let all = || Method::ALL.to_vec();
     Ladder {
-        methods: if arguments.methods.is_empty() { usual.methods } else { arguments.methods.clone() },
-        dt: or(&arguments.dt, usual.dt),
-        tolerances: or(&arguments.tolerances, usual.tolerances),
+        methods: if arguments.methods.is_empty() { all() } else { arguments.methods.clone() },
+        dt: listed(&arguments.dt),
+        tolerances: listed(&arguments.tolerances),
     }
 }
 
@@ -88,7 +92,7 @@ fn progress_bar(wanted: usize) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(STEPS as u64), ProgressDrawTarget::stderr());
     let bar = ProgressStyle::with_template(&template).map(|style| bar.clone().with_style(style)).unwrap_or(bar);
     bar.set_message("0");
-    bar.tick();
+    bar.enable_steady_tick(TICK); // the time left goes on while a setting is measured
     bar
 }
 
@@ -133,8 +137,8 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
     let mut all = Vec::new();
     for path in paths {
         let name = printable(&path.display().to_string());
-        let rows = File::open(path).map_err(|error| error.to_string()).and_then(read_trade);
-        let rows = rows.map_err(|error| Failure::Failed(format!("{name}: {error}")))?;
+        let rows = File::open(path).map_err(|error| format!(" {error}")).and_then(read_trade);
+        let rows = rows.map_err(|error| Failure::Failed(format!("{name}:{error}")))?;
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }
     Ok(all)

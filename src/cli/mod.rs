@@ -7,8 +7,10 @@
 //! | `failure` | how a command can end, its exit code and its one line |
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
+//! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
 
+mod accuracy;
 mod arguments;
 mod check;
 mod completions;
@@ -24,6 +26,7 @@ mod render;
 mod run;
 mod show;
 mod signals;
+mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -65,6 +68,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
+        Command::Verify(arguments) => verify::verify(arguments, signals),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

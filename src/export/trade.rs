@@ -67,17 +67,14 @@ impl Row for TradeRow {
 /// Reads a file of trade rows, each with its line number.
 ///
 /// # Errors
-/// A sentence that names the line and what is wrong there: a reader that fails, other columns, a cell that is no number.
+/// `line: what is wrong there`: a reader that fails, other columns, a cell that is no number.
 pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, String> {
     let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(reader);
     let mut records = csv.records();
-    let header = records.next().ok_or("line 1: the file is empty; a measure's CSV begins with its column names")?;
+    let header = records.next().ok_or("1: the file is empty; a measure's CSV begins with its column names")?;
     let header = header.map_err(|error| explain(&error))?;
     if !header.iter().eq(TradeRow::COLUMNS.iter().copied()) {
-        return Err(format!(
-            "line 1: these are not the columns of a measure; wanted are {}",
-            TradeRow::COLUMNS.join(",")
-        ));
+        return Err(format!("1: these are not the columns of a measure; wanted are {}", TradeRow::COLUMNS.join(",")));
     }
     records.map(|record| read_row(&record.map_err(|error| explain(&error))?)).collect()
 }
@@ -86,10 +83,40 @@ fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
     let line = record.position().map_or(0, csv::Position::line);
     let (found, wanted) = (record.len(), TradeRow::COLUMNS.len());
     if found != wanted {
-        return Err(format!("line {line}: {found} cells, where {wanted} are wanted"));
+        return Err(format!("{line}: {found} cells, where {wanted} are wanted"));
     }
-    let row = record.deserialize(None).map_err(|error| format!("line {line}: {}", cell(&error, record)))?;
-    Ok((line, row))
+    let row: TradeRow = record.deserialize(None).map_err(|error| format!("{line}: {}", cell(&error, record)))?;
+    match improper(&row) {
+        Some(what) => Err(format!("{line}: {what}")),
+        None => Ok((line, row)),
+    }
+}
+
+/// What no measure writes, but a file may hold: numbers that are none or negative, text that a terminal would obey.
+fn improper(row: &TradeRow) -> Option<String> {
+    let numbers = [
+        ("dt", row.dt),
+        ("tolerance", row.tolerance),
+        ("until", Some(row.until)),
+        ("horizon", row.horizon),
+        ("position_error", row.position_error),
+        ("impact_time_error", row.impact_time_error),
+        ("energy_error", row.energy_error),
+        ("cpu_per_s", row.cpu_per_s),
+        ("cpu_spread", row.cpu_spread),
+    ];
+    let wrong = numbers.iter().find(|(_, value)| value.is_some_and(|value| value.is_nan() || value < 0.0));
+    if let Some((column, value)) = wrong {
+        return Some(format!("{column} is {:?}; wanted is a number from 0", value.unwrap_or(f64::NAN)));
+    }
+    let texts = [("scene", &row.scene), ("method", &row.method), ("note", &row.note)];
+    let (column, text) = texts.iter().find(|(_, text)| text.contains(is_unprintable))?;
+    Some(format!("{column} is {text:?}; control characters are refused"))
+}
+
+fn is_unprintable(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
 /// Which cell of a row is wrong, and what stands in it.
@@ -102,9 +129,9 @@ fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
 
 fn explain(error: &csv::Error) -> String {
     match (error.position(), error.kind()) {
-        (_, csv::ErrorKind::Io(error)) => error.to_string(),
-        (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("line {}: this is no text in UTF-8", place.line()),
-        _ => error.to_string(),
+        (_, csv::ErrorKind::Io(error)) => format!(" {error}"),
+        (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("{}: this is no text in UTF-8", place.line()),
+        _ => format!(" {error}"),
     }
 }
 
@@ -152,11 +179,15 @@ mod tests {
     fn a_broken_file_is_refused_with_its_line() {
         let good = written(&[row()]);
         for (text, words) in [
-            (String::new(), &["line 1", "empty"][..]),
-            ("time,sphere\n1,2\n".into(), &["line 1", "columns"]),
-            (good.replace("20.0", "soon"), &["line 2", "until", "\"soon\""]),
-            (good.clone() + "a,paper,1\n", &["line 3", "3 cells", "16"]),
-            (good.replace(",22,", ",-22,"), &["line 2", "impacts", "-22"]),
+            (String::new(), &["1: ", "empty"][..]),
+            ("time,sphere\n1,2\n".into(), &["1: ", "columns"]),
+            (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
+            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
+            (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
+            (good.replace("1e300", "NaN"), &["2: ", "cpu_per_s is NaN"]),
+            (good.replace("20.0", "-1"), &["2: ", "until is -1"]),
+            (good.replace("stalled", "\u{1b}[2J"), &["2: ", "note", "control characters"]),
+            (good.replace("stalled", "\u{202e}"), &["2: ", "note", "control characters"]),
         ] {
             let error = read_trade(text.as_bytes()).expect_err(&text);
             assert!(words.iter().all(|word| error.contains(word)), "{error}");

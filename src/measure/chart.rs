@@ -85,5 +85,6 @@ fn legend(rows: &[TradeRow]) -> String {
     names.dedup();
     let words = names.iter().map(|name| format!("{} {name}", name.chars().next().unwrap_or('?')));
     let words: Vec<String> = words.collect();
-    format!("{:>LABELS$}  CPU s per simulated s     {}, capital and ·: the front\n", "", words.join(", "))
+    let axis = format!("{:>LABELS$}  {:^WIDTH$}", "", "CPU time per simulated second, s");
+    format!("{}\n{:>LABELS$}  {}; capital and ·: the front\n", axis.trim_end(), "", words.join(", "))
 }

@@ -80,9 +80,11 @@ fn panel(rows: &[TradeRow], allowed: &[Method], svg: &mut String) {
     frame(&axes, svg);
     words(rows, &axes, svg);
     steps(rows, &best, &axes, svg);
-    for (index, row) in rows.iter().enumerate() {
-        if let Some(place) = axes.point(row) {
-            marker(&row.method, place, best.contains(&index), &tip(row), svg);
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by_key(|index| best.contains(index)); // the front last: nothing covers it
+    for index in order {
+        if let Some(place) = axes.point(&rows[index]) {
+            marker(&rows[index].method, place, best.contains(&index), &tip(&rows[index]), svg);
         }
     }
     legend(rows, svg);
@@ -124,7 +126,7 @@ fn power(label: &str) -> String {
 fn words(rows: &[TradeRow], axes: &Axes, svg: &mut String) {
     let Plot { left, top, width, height } = axes.plot;
     let horizon = match rows[0].horizon {
-        Some(time) => format!("horizon {time:.2} s"),
+        Some(time) => format!("horizon {} s", super::report::plain(time)),
         None => "no horizon within the run".into(),
     };
     let title = escape(&format!("{}: accuracy for time ({horizon})", rows[0].scene));
@@ -193,9 +195,8 @@ fn legend(rows: &[TradeRow], svg: &mut String) {
         let y = line(name, svg);
         marker(name, (left, y), false, "", svg);
     }
-    let y = line("filled, line:", svg);
+    let y = line("the front (filled)", svg);
     let _ = writeln!(svg, r##"<path stroke="#555555" stroke-width="1.5" d="M{} {y}h16"/>"##, left - 8.0);
-    line("the front", svg);
 }
 
 fn escape(text: &str) -> String {

@@ -7,7 +7,7 @@ use glam::{DVec3, dvec3};
 
 use super::deviation::Deviation;
 use super::reference::Reference;
-use super::walk::{Cut, walk};
+use super::walk::{Budget, Cut, walk};
 use super::{GoOn, Interrupted};
 use crate::geometry::Parallelogram;
 use crate::physics::{Scene, Simulation};
@@ -48,7 +48,7 @@ impl Horizon {
 ///
 /// # Errors
 /// If `go_on` says no.
-pub(super) fn of(scene: &Scene, reference: &Reference, budget: u64, go_on: GoOn) -> Result<Horizon, Interrupted> {
+pub(super) fn of(scene: &Scene, reference: &Reference, budget: Budget, go_on: GoOn) -> Result<Horizon, Interrupted> {
     let mut worst = Horizon::unknown();
     for seed in 1..=RUNS {
         let found = one(scene, reference, (seed, budget), worst.time, go_on)?;
@@ -62,7 +62,7 @@ pub(super) fn of(scene: &Scene, reference: &Reference, budget: u64, go_on: GoOn)
 fn one(
     scene: &Scene,
     reference: &Reference,
-    (seed, budget): (u64, u64),
+    (seed, budget): (u64, Budget),
     known: Option<f64>,
     go_on: GoOn,
 ) -> Result<Horizon, Interrupted> {

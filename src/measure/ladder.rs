@@ -1,7 +1,7 @@
 //! Which settings are tried: methods × dt × tolerance, a knob that a method lacks tried once.
 
 use super::reference;
-use crate::physics::{Method, Settings, knobs};
+use crate::physics::{Effect, Knobs, Method, Settings, knobs};
 
 /// Steps tried unless told otherwise, s.
 pub const DT: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
@@ -12,17 +12,17 @@ pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// The settings to try.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ladder {
-    /// In this order.
+    /// In any order.
     pub methods: Vec<Method>,
-    /// Longest steps, s.
-    pub dt: Vec<f64>,
-    /// Tolerances, degrees.
-    pub tolerances: Vec<f64>,
+    /// Longest steps, s; none: [`DT`], of which only the longest where a step changes nothing but the cost.
+    pub dt: Option<Vec<f64>>,
+    /// Tolerances, degrees; none: [`TOLERANCES`], likewise.
+    pub tolerances: Option<Vec<f64>>,
 }
 
 impl Default for Ladder {
     fn default() -> Ladder {
-        Ladder { methods: Method::ALL.to_vec(), dt: DT.to_vec(), tolerances: TOLERANCES.to_vec() }
+        Ladder { methods: Method::ALL.to_vec(), dt: None, tolerances: None }
     }
 }
 
@@ -57,21 +57,23 @@ impl Ladder {
     }
 
     fn of(&self, method: Method) -> Vec<Rung> {
-        let used = knobs(method);
-        let (dts, tolerances) = (values(used.dt, &self.dt), values(used.tolerance, &self.tolerances));
+        let Knobs { dt, tolerance } = knobs(method);
+        let (dts, tolerances) = (values(dt, &self.dt, &DT), values(tolerance, &self.tolerances, &TOLERANCES));
         let pairs = dts.iter().flat_map(|&dt| tolerances.iter().map(move |&tolerance| (dt, tolerance)));
         pairs.map(|(dt, tolerance)| Rung { method, dt, tolerance }).collect()
     }
 }
 
-/// Large to small, each once; nothing, once, for a knob that is not used.
-fn values(used: bool, list: &[f64]) -> Vec<Option<f64>> {
-    if !used {
-        return vec![None];
-    }
-    let mut values = list.to_vec();
+/// Large to small, each once; nothing, once, for a knob that does nothing.
+fn values(effect: Effect, listed: &Option<Vec<f64>>, usual: &[f64]) -> Vec<Option<f64>> {
+    let mut values = listed.as_deref().unwrap_or(usual).to_vec();
     values.sort_by(|a, b| b.total_cmp(a));
     values.dedup();
+    match effect {
+        Effect::Nothing => return vec![None],
+        Effect::Cost if listed.is_none() => values.truncate(1),
+        Effect::Cost | Effect::Error => {}
+    }
     values.into_iter().map(Some).collect()
 }
 
@@ -79,13 +81,24 @@ fn values(used: bool, list: &[f64]) -> Vec<Option<f64>> {
 mod tests {
     use super::*;
 
+    fn dts(ladder: &Ladder, method: Method) -> Vec<Option<f64>> {
+        let mut dts: Vec<_> = ladder.rungs().iter().filter(|rung| rung.method == method).map(|rung| rung.dt).collect();
+        dts.dedup();
+        dts
+    }
+
     #[test]
     fn a_knob_that_a_method_lacks_is_not_multiplied() {
-        let ladder = Ladder { dt: vec![1e-2, 1e-1, 1e-2], tolerances: vec![1e-3], ..Ladder::default() };
-        let rungs = ladder.rungs();
-        let of = |method| rungs.iter().filter(|rung| rung.method == method).collect::<Vec<_>>();
-        assert_eq!(of(Method::Exact), [&Rung { method: Method::Exact, dt: None, tolerance: None }]);
-        let dts: Vec<_> = of(Method::Paper).iter().map(|rung| rung.dt).collect();
-        assert_eq!(dts, [Some(1e-1), Some(1e-2)], "coarse to fine, each once");
+        let listed = Ladder { dt: Some(vec![1e-2, 1e-1, 1e-2]), ..Ladder::default() };
+        assert_eq!(listed.rungs().iter().filter(|rung| rung.method == Method::Exact).count(), 1);
+        assert_eq!(dts(&listed, Method::Exact), [None]);
+        assert_eq!(dts(&listed, Method::Paper), [Some(1e-1), Some(1e-2)], "coarse to fine, each once");
+    }
+
+    #[test]
+    fn a_step_that_only_costs_is_as_long_as_can_be_unless_steps_are_listed() {
+        assert_eq!(dts(&Ladder::default(), Method::Swept), [Some(1e-1)]);
+        let listed = Ladder { dt: Some(vec![1e-3, 1e-2]), ..Ladder::default() };
+        assert_eq!(dts(&listed, Method::Swept), [Some(1e-2), Some(1e-3)]);
     }
 }

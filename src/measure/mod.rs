@@ -10,6 +10,7 @@
 //!   [`Reference::meaningful`] says until when positions can be compared.
 //! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
+//! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
 //!
 //! Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it says no.
 //! Everything but times repeats to the bit.
@@ -23,8 +24,11 @@
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
+//! | `accuracy` | the cheapest setting that meets an error |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
+//! | `verify` | known results of physics and mathematics, measured here |
 
+mod accuracy;
 mod chart;
 mod clock;
 mod cost;
@@ -40,8 +44,10 @@ mod scale;
 mod shard;
 mod sweep;
 mod trade;
+pub mod verify;
 mod walk;
 
+pub use accuracy::{Choice, Miss, Tried, choose};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
@@ -50,12 +56,12 @@ pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
 pub use horizon::Horizon;
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
-pub use reference::{BUDGET, Reference};
+pub use reference::Reference;
 pub use report::report;
 pub use shard::{Placed, Shard, merge};
 pub use sweep::{Advance, Measured, Sweep, Yardstick};
 pub use trade::{Errors, Subject, errors};
-pub use walk::{Cut, Impact, Instants, Walk, walk};
+pub use walk::{Budget, Cut, Impact, Instants, Walk, walk};
 
 /// Asked every few milliseconds whether to go on; from several threads at once.
 pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);

@@ -5,12 +5,9 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::horizon::{self, Horizon};
-use super::walk::{Cut, Impact, Instants, walk};
+use super::walk::{Budget, Cut, Impact, Instants, walk};
 use super::{GoOn, Interrupted};
 use crate::physics::{Method, Scene, Settings, Simulation, Tallies};
-
-/// Events that `exact` may take: minutes. A crowd that settles takes more, and gets the stand-in.
-pub const BUDGET: u64 = 50_000_000;
 
 /// Who stands in where `exact` can't go on, if there is such a method, and its finest setting: (name, dt in s, tolerance).
 const STAND_IN: (&str, f64, f64) = ("moreau", 1e-4, 1e-12);
@@ -48,14 +45,14 @@ impl Reference {
     ///
     /// # Errors
     /// If `go_on` says no.
-    pub fn of(scene: &Scene, until: f64, budget: u64, go_on: GoOn) -> Result<Reference, Interrupted> {
+    pub fn of(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
         let (mut reference, cut) = Reference::by(scene, settings(until), until, budget, go_on)?;
         if let Some(cut) = cut {
             reference.doubt = format!("exact {} at {:.4} s", describe(&cut), reference.end);
             let (name, dt, tolerance) = STAND_IN;
             if let Some(method) = Method::from_name(name) {
                 let finest = Settings { method, dt, tolerance };
-                let (stand_in, _) = Reference::by(scene, finest, until, u64::MAX, go_on)?;
+                let (stand_in, _) = Reference::by(scene, finest, until, Budget::UNLIMITED, go_on)?;
                 if stand_in.end > reference.end {
                     let doubt = format!("reference is {name} dt {dt:e} because {}", reference.doubt);
                     reference = Reference { doubt, ..stand_in };
@@ -66,11 +63,21 @@ impl Reference {
         Ok(reference)
     }
 
+    /// The same by `exact` alone, up to `until` (s) or as far as `budget` events take it.
+    ///
+    /// # Errors
+    /// If `go_on` says no.
+    pub fn brief(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
+        let (mut reference, _) = Reference::by(scene, settings(until), until, budget, go_on)?;
+        reference.horizon = horizon::of(scene, &reference, budget, go_on)?;
+        Ok(reference)
+    }
+
     fn by(
         scene: &Scene,
         settings: Settings,
         until: f64,
-        budget: u64,
+        budget: Budget,
         go_on: GoOn,
     ) -> Result<(Reference, Option<Cut>), Interrupted> {
         let mut simulation = Simulation::new(scene, settings);

@@ -37,15 +37,16 @@ fn section(rows: &[TradeRow], allowed: &[Method], yardstick: Option<&Yardstick>)
 fn heading(rows: &[TradeRow], yardstick: Option<&Yardstick>) -> String {
     let until = rows.iter().map(|row| row.until).fold(0.0, f64::max);
     let growth = yardstick.map(|yardstick| yardstick.growth).filter(|growth| *growth > GROWN);
+    let growth = growth.map(|growth| format!(" (growth {growth:.0e})")).unwrap_or_default();
     let horizon = match rows[0].horizon {
-        Some(time) => format!("horizon {time:.2} s: beyond it positions mean nothing"),
-        None => "horizon none: positions mean something to the end".into(),
+        Some(time) => format!("horizon {} s: beyond it positions mean nothing", plain(time)),
+        None => format!("horizon none{growth}: positions mean something to the end"),
     };
-    let growth = growth.map(|growth| format!(" (a displacement grows by {growth:.0e})")).unwrap_or_default();
-    format!("{}: {until} s; {horizon}{growth}", rows[0].scene)
+    format!("{}: {} s; {horizon}", rows[0].scene, plain(until))
 }
 
-const COLUMNS: &str = "  method dt    tol     error m impact s   common  energy degree   gaps    cpu/s   ±";
+/// Errors in m and s, energy and depth as parts; gaps computed, CPU time per simulated second and its spread.
+const COLUMNS: &str = "  method dt   tol   error m delay s  common  energy depth  gaps   cpu/s   ±";
 
 /// A line for each row, `*` on the front; letters refer to the notes below.
 fn table(rows: &[TradeRow], best: &[usize]) -> String {
@@ -65,10 +66,10 @@ fn table(rows: &[TradeRow], best: &[usize]) -> String {
 }
 
 fn cells(row: &TradeRow) -> String {
-    let knob = |value: Option<f64>| value.map(|value| format!("{value:e}")).unwrap_or_default();
+    let knob = |value: Option<f64>| value.map(power).unwrap_or_default();
     let figure = |value: Option<f64>| value.map_or("-".into(), |value| short(value, 1));
     format!(
-        "{:6} {:5} {:6} {:>8} {:>8} {:>8} {:>7} {:>6} {:>6} {:>8} {:>3}",
+        "{:6} {:4} {:5} {:>7} {:>7} {:>7} {:>7} {:>5} {:>5} {:>7} {:>3}",
         row.method,
         knob(row.dt),
         knob(row.tolerance),
@@ -94,7 +95,7 @@ fn letter(note: &str, notes: &mut Vec<String>) -> char {
 }
 
 /// 0, or with so many digits after the first: 4.9e-2.
-fn short(value: f64, digits: usize) -> String {
+pub(super) fn short(value: f64, digits: usize) -> String {
     if value == 0.0 { "0".into() } else { format!("{value:.digits$e}") }
 }
 
@@ -103,7 +104,7 @@ fn percent(part: f64) -> String {
 }
 
 /// A time with three digits and its unit.
-fn duration(seconds: f64) -> String {
+pub(super) fn duration(seconds: f64) -> String {
     let (value, unit) = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")]
         .into_iter()
         .find(|(size, _)| seconds >= *size)
@@ -112,10 +113,21 @@ fn duration(seconds: f64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
+/// A time in s with at most four decimals.
+pub(super) fn plain(seconds: f64) -> String {
+    let text = format!("{seconds:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').into()
+}
+
+/// A knob's value with its power of ten; 0 is 0.
+fn power(value: f64) -> String {
+    if value == 0.0 { "0".into() } else { format!("{value:e}") }
+}
+
 /// A setting in words.
 pub(super) fn setting(method: &str, dt: Option<f64>, tolerance: Option<f64>) -> String {
-    let dt = dt.map(|dt| format!(", dt {dt:e} s")).unwrap_or_default();
-    let tolerance = tolerance.map(|tolerance| format!(", tolerance {tolerance:e}")).unwrap_or_default();
+    let dt = dt.map(|dt| format!(", dt {} s", power(dt))).unwrap_or_default();
+    let tolerance = tolerance.map(|tolerance| format!(", tolerance {}", power(tolerance))).unwrap_or_default();
     format!("{method}{dt}{tolerance}")
 }
 
@@ -124,15 +136,14 @@ fn sentences(rows: &[TradeRow], best: &[usize]) -> String {
     let mut text = String::new();
     for found in cheapest(rows, best) {
         let row = &rows[found.row];
-        let range = if found.from == found.to {
-            format!("{:e} m", found.to)
-        } else {
-            format!("{:e} to {:e} m", found.from, found.to)
+        let range = match (found.from, found.to) {
+            (from, to) if from == to => format!("an error up to {to:e} m"),
+            (from, to) => format!("errors of {from:e} down to {to:e} m"),
         };
         let (cost, error) = (row.cpu_per_s.map(duration).unwrap_or_default(), row.position_error.unwrap_or(0.0));
         let _ = writeln!(
             text,
-            "Cheapest for an error up to {range}: {};\n  {cost} per simulated second, error {} m.",
+            "Cheapest for {range}: {};\n  {cost} per simulated second, error {} m.",
             setting(&row.method, row.dt, row.tolerance),
             short(error, 1),
         );
@@ -151,9 +162,9 @@ fn price(rows: &[TradeRow], best: &[usize], yardstick: Option<&Yardstick>) -> St
     let cheaper = best.iter().filter(|&&row| rows[row].cpu_per_s.is_some_and(|cost| cost < price)).count();
     let compared = match (cheaper, best.is_empty()) {
         (_, true) => String::new(),
-        (0, _) => ", less than any setting on the front".into(),
-        (1, _) => "; one setting on the front costs less".into(),
-        (count, _) => format!("; {count} settings on the front cost less"),
+        (0, _) => ",\n  less than any setting on the front".into(),
+        (1, _) => ";\n  one setting on the front costs less".into(),
+        (count, _) => format!(";\n  {count} settings on the front cost less"),
     };
     format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", duration(price))
 }

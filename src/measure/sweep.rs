@@ -60,9 +60,12 @@ pub struct Advance {
 
 impl Sweep {
     /// # Errors
-    /// A sentence, if two scenes have one name: their rows could not be told apart.
+    /// A sentence, if two scenes have one name, so that their rows could not be told apart, or if one lasts 0 s.
     pub fn new(mut scenes: Vec<(String, Scene)>, ladder: Ladder, shard: Shard) -> Result<Sweep, String> {
         scenes.sort_by(|a, b| a.0.cmp(&b.0));
+        if let Some((key, _)) = scenes.iter().find(|(_, scene)| scene.duration <= 0.0) {
+            return Err(format!("{key} lasts 0 s; there is nothing to measure"));
+        }
         match scenes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             Some(pair) => Err(format!("two scenes are called {}; their rows could not be told apart", pair[0].0)),
             None => Ok(Sweep { scenes, ladder, shard }),
@@ -108,7 +111,7 @@ impl Sweep {
     fn subject(&self, key: &str, scene: &Scene, go_on: GoOn) -> Result<(Subject, Yardstick), Interrupted> {
         let subject = Subject::new(key, scene.clone(), go_on)?;
         let reference = &subject.reference;
-        let price = cost(scene, reference.settings, reference.instants.until, go_on)?;
+        let price = cost(scene, reference.settings, reference.end, go_on)?;
         let yardstick = Yardstick {
             scene: key.into(),
             method: reference.settings.method,

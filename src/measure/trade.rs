@@ -6,10 +6,10 @@ use super::cost::{Cost, cost};
 use super::deviation::{Deviation, common_impacts, impact_time_error};
 use super::ladder::Rung;
 use super::reference::Reference;
-use super::walk::{Cut, Instants, Walk, walk};
+use super::walk::{Budget, Cut, Instants, Walk, walk};
 use super::{GoOn, Interrupted};
 use crate::export::TradeRow;
-use crate::physics::{Scene, Settings, Simulation};
+use crate::physics::{Method, Scene, Settings, Simulation};
 
 /// A horizon below this part of the run is short: most of the run cannot be judged by positions.
 const SHORT: f64 = 0.5;
@@ -39,7 +39,7 @@ pub struct Errors {
 }
 
 /// Runs a setting beside a reference, up to the reference's last instant; given up once the deviation exceeds `limit`
-/// (m).
+/// (m). `exact` gets no more than a reference would.
 ///
 /// # Errors
 /// If `go_on` says no.
@@ -54,7 +54,8 @@ pub fn errors(
     let model = simulation.model().clone();
     let (meaningful, judged) = (reference.meaningful(), judged(reference));
     let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
-    let walk = walk(&mut simulation, reference.instants, u64::MAX, go_on, |k, state| {
+    let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
+    let walk = walk(&mut simulation, reference.instants, budget, go_on, |k, state| {
         if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
             compared = state.t;
             let now = Deviation::between(&state.x, wanted);
@@ -100,7 +101,7 @@ impl Subject {
     /// # Errors
     /// If `go_on` says no.
     pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
-        let reference = Reference::of(&scene, scene.duration, super::reference::BUDGET, go_on)?;
+        let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
         Ok(Subject { key: key.into(), scene, reference })
     }
 
@@ -112,7 +113,7 @@ impl Subject {
         let Instants { until, .. } = self.reference.instants;
         let settings = rung.settings(until);
         let errors = errors(&self.scene, settings, &self.reference, f64::INFINITY, go_on)?;
-        let cost = cost(&self.scene, settings, until, go_on)?;
+        let cost = cost(&self.scene, settings, errors.end, go_on)?;
         let doubts = self.doubts(&errors, &cost);
         Ok(TradeRow {
             scene: self.key.clone(),
@@ -139,8 +140,10 @@ impl Subject {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
         let mut doubts = Vec::new();
-        if let Some(Cut::Stalled(stall)) = &errors.walk.cut {
-            doubts.push(format!("{STALLED} {:.4} s ({})", stall.time, stall.kind));
+        match &errors.walk.cut {
+            Some(Cut::Stalled(stall)) => doubts.push(format!("{STALLED} {:.4} s ({})", stall.time, stall.kind)),
+            Some(Cut::Spent | Cut::Enough) => doubts.push(format!("{STALLED} {:.4} s (passes its budget)", errors.end)),
+            None => {}
         }
         if !doubt.is_empty() {
             doubts.push(doubt.clone());

@@ -2,12 +2,36 @@
 
 use std::ops::ControlFlow;
 
+use super::clock::Watch;
 use super::{GoOn, Interrupted};
 use crate::physics::contact::Key;
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies, Until};
 
-/// Units of work between two looks at whether to go on: some milliseconds. No bit of a run depends on it.
-const SLICE: u64 = 20_000;
+/// Units of work in the first slice; from there on a slice is doubled or halved to last about [`SLICE`]. A unit is a
+/// degree evaluation or an event, and one event that settles a heap takes longer than a thousand in flight. No bit of a
+/// run depends on where slices end.
+const FIRST: u64 = 256;
+
+/// A slice of work lasts about so long, s: that soon an interrupt is noticed.
+const SLICE: f64 = 2e-3;
+
+/// What a run may take before it is given up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// Units of work (events, degree evaluations), roughly.
+    pub work: u64,
+    /// Time on its thread, s.
+    pub cpu: f64,
+}
+
+impl Budget {
+    /// As much as it takes.
+    pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY };
+    /// For a reference: minutes of flights. A crowd that settles takes more, and gets the stand-in.
+    pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0 };
+    /// For a reference that somebody waits for.
+    pub const BRIEF: Budget = Budget { work: 200_000, cpu: 0.6 };
+}
 
 /// Instants at which every run of a scene is read, from 0 to `until`, evenly: a fixed grid, not the frames of each run,
 /// so that all settings are judged at the same times, and the reference is computed once for all of them.
@@ -74,21 +98,22 @@ pub struct Walk {
 }
 
 /// Runs a simulation from t = 0 past every instant; `visit` sees the state at each, the first at t = 0. At most about
-/// `budget` units of work (events, degree evaluations) are spent.
+/// `budget` is spent.
 ///
 /// # Errors
 /// If `go_on` says no.
 pub fn walk(
     simulation: &mut Simulation,
     instants: Instants,
-    budget: u64,
+    budget: Budget,
     go_on: GoOn,
     mut visit: impl FnMut(usize, &State) -> ControlFlow<()>,
 ) -> Result<Walk, Interrupted> {
     simulation.record_events(true);
-    let (mut impacts, mut cut, mut end, mut left) = (Vec::new(), None, 0.0, budget);
+    let (mut impacts, mut cut, mut end) = (Vec::new(), None, 0.0);
+    let mut pace = Pace::new(budget);
     for k in 0..=instants.count {
-        cut = reach(simulation, instants.at(k), &mut left, go_on)?;
+        cut = pace.reach(simulation, instants.at(k), go_on)?;
         keep_impacts(simulation, &mut impacts);
         if cut.is_some() {
             break;
@@ -106,28 +131,50 @@ pub fn walk(
     Ok(Walk { end, cut, impacts, tallies: simulation.tallies() })
 }
 
-/// Advances until a frame holds `time`; says so if it cannot.
-fn reach(simulation: &mut Simulation, time: f64, left: &mut u64, go_on: GoOn) -> Result<Option<Cut>, Interrupted> {
-    loop {
-        match simulation.advance(Until::Time(time), SLICE) {
-            Progress::Reached => return Ok(None),
-            Progress::Stalled(stall) => return Ok(Some(Cut::Stalled(stall))),
-            Progress::Yielded if *left < SLICE => return Ok(Some(Cut::Spent)),
-            Progress::Yielded => *left -= SLICE,
-        }
-        if !go_on() {
-            return Err(Interrupted);
-        }
-    }
-}
-
 /// Runs to `until` (s) and reads nothing: what a run costs by itself. False if it stalls before.
 ///
 /// # Errors
 /// If `go_on` says no.
 pub(super) fn run_through(simulation: &mut Simulation, until: f64, go_on: GoOn) -> Result<bool, Interrupted> {
-    let mut plenty = u64::MAX;
-    reach(simulation, until, &mut plenty, go_on).map(|cut| cut.is_none())
+    Pace::new(Budget::UNLIMITED).reach(simulation, until, go_on).map(|cut| cut.is_none())
+}
+
+/// Work in slices that are neither so long that nobody could interrupt nor so short that asking takes the time.
+struct Pace {
+    slice: u64,
+    spent: u64,
+    budget: Budget,
+    since: Watch,
+}
+
+impl Pace {
+    fn new(budget: Budget) -> Pace {
+        Pace { slice: FIRST, spent: 0, budget, since: Watch::start() }
+    }
+
+    /// Advances until a frame holds `time` (s); says so if it cannot.
+    fn reach(&mut self, simulation: &mut Simulation, time: f64, go_on: GoOn) -> Result<Option<Cut>, Interrupted> {
+        loop {
+            if !go_on() {
+                return Err(Interrupted);
+            }
+            // Slices that are not used up count by their frames: of `exact`, one an event.
+            if self.spent.max(simulation.tallies().frames) > self.budget.work {
+                return Ok(Some(Cut::Spent));
+            }
+            let before = self.since.wall();
+            match simulation.advance(Until::Time(time), self.slice) {
+                Progress::Reached => return Ok(None),
+                Progress::Stalled(stall) => return Ok(Some(Cut::Stalled(stall))),
+                Progress::Yielded => self.spent += self.slice,
+            }
+            if self.budget.cpu.is_finite() && self.since.cpu() > self.budget.cpu {
+                return Ok(Some(Cut::Spent));
+            }
+            let quick = self.since.wall() - before < SLICE;
+            self.slice = if quick { self.slice * 2 } else { (self.slice / 2).max(1) };
+        }
+    }
 }
 
 fn keep_impacts(simulation: &mut Simulation, impacts: &mut Vec<Impact>) {

@@ -32,8 +32,8 @@ pub(super) trait Detector: std::fmt::Debug + Clone {
     fn new(settings: Settings) -> Self;
     /// A sphere of radius `r` (m) on `path`, and a wall.
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due>;
-    /// Two spheres whose radii sum to `reach` (m); `path` is that of one centre seen from the other.
-    fn pair(&self, path: &Path, reach: f64, span: Span) -> Option<Due>;
-    /// Tells the log what was looked at since the last call, in a frame that began at `start`, s.
-    fn report(&mut self, start: f64, log: &mut Log);
+    /// Two spheres on `a` and `b` whose radii sum to `reach` (m).
+    fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due>;
+    /// Tells the log of a frame from `start` to `end` (s) what was looked at.
+    fn report(&mut self, start: f64, end: f64, log: &mut Log);
 }

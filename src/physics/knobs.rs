@@ -1,20 +1,32 @@
-//! Which of the two knobs, dt and tolerance, a method listens to.
+//! What the two knobs, dt and tolerance, do in a method: data for whoever tries settings.
 
 use super::Method;
 
-/// Which settings change what a method computes.
+/// What turning a knob changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Knobs {
-    /// Whether the longest step matters, be it for the error or for the cost.
-    pub dt: bool,
-    /// Whether the tolerance matters.
-    pub tolerance: bool,
+pub enum Effect {
+    /// Nothing: the method has no such knob.
+    Nothing,
+    /// The cost alone.
+    Cost,
+    /// The error, and with it the cost.
+    Error,
 }
 
-/// The knobs of a method: a setting that it does not listen to need not be tried twice.
-pub fn knobs(method: Method) -> Knobs {
+/// What the knobs of a method do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Knobs {
+    /// The longest step.
+    pub dt: Effect,
+    /// The tolerance.
+    pub tolerance: Effect,
+}
+
+/// What the knobs of a method do.
+pub const fn knobs(method: Method) -> Knobs {
     match method {
-        Method::Exact => Knobs { dt: false, tolerance: false },
-        _ => Knobs { dt: true, tolerance: true },
+        Method::Paper | Method::Moreau => Knobs { dt: Effect::Error, tolerance: Effect::Error },
+        Method::Swept => Knobs { dt: Effect::Cost, tolerance: Effect::Error },
+        Method::Exact => Knobs { dt: Effect::Nothing, tolerance: Effect::Nothing },
     }
 }

@@ -5,21 +5,29 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use super::rest::ROUNDING;
+use super::bounce::along;
 use crate::physics::contact::Key;
-use crate::physics::contact_time::{Path, curvature, pair_normal_velocity, touch};
+use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
 use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
+use crate::physics::state::runaway;
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
 /// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
 const COLLAPSE: u32 = 1000;
 
+/// Impacts by then of another contact that belongs to the same collapse, and rests with it: the limit of the chain is
+/// that none of them approaches any longer.
+const COLLAPSE_SHARE: u32 = 100;
+
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
+
+/// Releases of one contact without the clock advancing after which it is held for a moment.
+const STUCK: u32 = 20;
 
 /// Over how many events the clock must advance by more than rounding.
 const STRETCH: u64 = 20_000_000;
@@ -44,9 +52,28 @@ const CLOCK: f64 = 1e-3;
 pub(super) struct Instant {
     events: u64,
     impacts: BTreeMap<Key, u32>,
+    /// Whether a chain of impacts has collapsed.
+    collapsed: bool,
+    /// How often each contact has opened.
+    releases: BTreeMap<Key, u32>,
     /// Events in this stretch, and the time when it began, s.
     stretch: u64,
     since: f64,
+}
+
+impl Instant {
+    /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
+    pub(super) fn has_collapsed(&self, key: Key) -> bool {
+        self.collapsed && self.impacts.get(&key).is_some_and(|&count| count > COLLAPSE_SHARE)
+    }
+
+    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
+    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
+        let count = self.releases.entry(key).or_default();
+        *count += 1;
+        *count > STUCK
+    }
 }
 
 /// Two bodies that touch.
@@ -56,15 +83,23 @@ pub(super) struct Meeting {
     pub(super) point: DVec3,
     pub(super) normal: DVec3,
     /// Gap, m, and what it is measured by: r, or r₁ + r₂.
-    gap: f64,
+    pub(super) gap: f64,
     reach: f64,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
-    a_n: f64,
+    pub(super) a_n: f64,
+    /// Whether that stays so as the bodies move: the face of a wall.
+    pub(super) flat: bool,
 }
 
 impl Meeting {
+    /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
+    /// speed at which they approach or part.
+    pub(super) fn hops_within_rounding(&self, pull: f64) -> bool {
+        self.v_n * self.v_n <= 2.0 * pull * HOP * self.point.abs().max_element().max(self.reach)
+    }
+
     /// The row of this contact: `impulse` in N s, v_n afterwards in m/s.
     pub(super) fn row(&self, time: f64, class: Class, impulse: f64, separation_speed: f64) -> Contact {
         let (kind, a, b) = self.key;
@@ -90,9 +125,10 @@ impl<D: Detector> Exact<D> {
         let Exact { instant, now, .. } = self;
         if time > *now {
             *now = time;
-            instant.events = 0;
-            if !instant.impacts.is_empty() {
+            (instant.events, instant.collapsed) = (0, false);
+            if !instant.impacts.is_empty() || !instant.releases.is_empty() {
                 instant.impacts.clear();
+                instant.releases.clear();
             }
         }
         instant.events += 1;
@@ -146,17 +182,17 @@ impl<D: Detector> Exact<D> {
     /// The bodies of a contact now, their lines brought to the present.
     pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
         let (kind, a, b) = key;
-        self.bring(a);
+        self.bring(model, a);
         if kind == Kind::Pair {
-            self.bring(b);
+            self.bring(model, b);
         }
-        self.seen(model, key)
+        self.seen(model, key, self.now)
     }
 
-    /// The same without touching the lines.
-    pub(super) fn seen(&self, model: &Model, key: Key) -> Meeting {
+    /// The same at `time` (s) without touching the lines.
+    pub(super) fn seen(&self, model: &Model, key: Key, time: f64) -> Meeting {
         let (kind, a, b) = key;
-        let path = self.flight.path(a, self.now);
+        let path = self.flight.path(a, time);
         match kind {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], model.radii[a]);
@@ -166,10 +202,11 @@ impl<D: Detector> Exact<D> {
                 let slow = v_n.abs() <= SLOW * path.v.length();
                 let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
                 let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
-                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
+                let flat = part == Part::Face && at.part == part;
+                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
             }
             Kind::Pair => {
-                let other = self.flight.path(b, self.now);
+                let other = self.flight.path(b, time);
                 let relative = path.relative_to(&other);
                 let (reach, distance) = (model.radii[a] + model.radii[b], relative.x.length());
                 let (normal, gap) = (relative.x / distance, distance - reach);
@@ -177,14 +214,16 @@ impl<D: Detector> Exact<D> {
                 let across = relative.v - normal * v_n;
                 let a_n = normal.dot(relative.a) + across.length_squared() / distance;
                 let point = other.x + normal * (model.radii[b] + 0.5 * gap);
-                Meeting { key, point, normal, gap, reach, v_n, a_n }
+                Meeting { key, point, normal, gap, reach, v_n, a_n, flat: false }
             }
         }
     }
 
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let meeting = self.meeting(model, key);
+        let before = self.flight.lines[key.1];
+        let mut meeting = self.meeting(model, key);
+        self.keep_energy(model, &before, &mut meeting);
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest if self.brushes(&meeting) => {
@@ -219,12 +258,12 @@ impl<D: Detector> Exact<D> {
             // the flight would last no longer than the clock can tell
             return Class::Rest;
         }
-        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        if pressed && hop <= HOP * meeting.point.abs().max_element().max(meeting.reach) {
-            // the flight would go no higher than coordinates can tell
+        if pressed && meeting.hops_within_rounding(-meeting.a_n) {
             return Class::Rest;
         }
-        if pressed && hop <= SMALL_HOP * meeting.reach && self.bounces_left(model, meeting) > 0.0 {
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        let dies_out = self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
+        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out {
             return Class::Rest;
         }
         let mut law = model.law;
@@ -235,7 +274,8 @@ impl<D: Detector> Exact<D> {
         if class == Class::Collide && restitution < 1.0 && self.instant.events > u64::from(COLLAPSE) {
             let count = self.instant.impacts.entry(meeting.key).or_default();
             *count += 1;
-            if *count > COLLAPSE {
+            self.instant.collapsed |= *count > COLLAPSE;
+            if self.instant.has_collapsed(meeting.key) {
                 log.tallies.collapses += 1;
                 return Class::Rest;
             }
@@ -243,16 +283,11 @@ impl<D: Detector> Exact<D> {
         class
     }
 
-    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
-    /// flights, 2 e |v_n| / (g_n (1 − e)). Only where they change nothing but the height, and where no rest speed ends
-    /// them before.
-    fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
-        let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.key.0 == Kind::Wall && law.tangential == 1.0 && e < 1.0;
-        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
-            return 0.0;
-        }
-        2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
+    /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
+    /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end.
+    fn hums(&self, model: &Model, (kind, a, _): Key) -> bool {
+        let law = &model.law;
+        kind == Kind::Wall && law.wall_restitution == 1.0 && (law.tangential == 1.0 || self.rests.count(a) > 0)
     }
 
     /// Rounding of the clock, s.
@@ -270,7 +305,7 @@ impl<D: Detector> Exact<D> {
             Kind::Wall => {
                 let v = self.flight.lines[a].v;
                 let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
-                self.push(a, meeting.normal * change + slip);
+                self.push(a, along(meeting.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
@@ -289,7 +324,12 @@ impl<D: Detector> Exact<D> {
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
         log.contacts.push(row);
         log.event(row);
-        self.follow_up(model, log, meeting.key)
+        self.follow_up(model, log, meeting.key)?;
+        if target == 0.0 && meeting.a_n < 0.0 {
+            // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
+            self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, self.now);
+        }
+        Ok(())
     }
 
     /// The bodies of a contact have got new velocities: rests that this breaks end, and what comes next is predicted.
@@ -306,41 +346,8 @@ impl<D: Detector> Exact<D> {
         Ok(())
     }
 
-    /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
-    fn brushes(&self, meeting: &Meeting) -> bool {
-        let (kind, a, b) = meeting.key;
-        let path = |i: usize| self.flight.path(i, self.now);
-        let size = |of: fn(&Path) -> DVec3| {
-            of(&path(a)).length() + if kind == Kind::Pair { of(&path(b)).length() } else { 0.0 }
-        };
-        meeting.v_n >= -8.0 * f64::EPSILON * size(|path| path.v) && meeting.a_n > ROUNDING * size(|path| path.a)
-    }
-
-    /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
-    /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
-    fn turn_back(&mut self, model: &Model, meeting: &Meeting) {
-        let (kind, a, b) = meeting.key;
-        let change = -meeting.v_n + self.hop_speed(meeting).max(-meeting.v_n);
-        if kind == Kind::Wall {
-            self.push(a, meeting.normal * change);
-        } else {
-            let push = meeting.normal * (change / (model.inverse_masses[a] + model.inverse_masses[b]));
-            self.push(a, push * model.inverse_masses[a]);
-            self.push(b, push * -model.inverse_masses[b]);
-        }
-        self.part(model, meeting.key, 0.0);
-    }
-
-    /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
-    /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
-    fn hop_speed(&self, meeting: &Meeting) -> f64 {
-        let path = self.flight.path(meeting.key.1, self.now);
-        let pressing = (-meeting.normal.dot(path.a)).max(0.0);
-        f64::EPSILON * path.v.length() + self.tick() * pressing
-    }
-
     /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
-    fn push(&mut self, i: usize, change: DVec3) {
+    pub(super) fn push(&mut self, i: usize, change: DVec3) {
         let line = self.flight.lines[i];
         self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
@@ -353,7 +360,7 @@ impl<D: Detector> Exact<D> {
         let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
         let mut nudge = f64::EPSILON * self.flight.lines[i].v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             if meeting.v_n >= least || meeting.v_n.is_nan() {
                 return;
             }
@@ -362,16 +369,10 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    /// The second of two places where a number that is none is caught.
+    /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
         let line = &self.flight.lines[i];
-        if line.x.is_finite() && line.v.is_finite() {
-            return Ok(());
-        }
-        let reason = format!(
-            "The motion of sphere {i} is no longer a finite number at t = {} s; its speeds or distances are too large for f64.",
-            self.now
-        );
-        Err(Stall { time: self.now, kind: "non-finite", reason })
+        let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
+        runaway(i, self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

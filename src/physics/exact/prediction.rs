@@ -186,8 +186,9 @@ impl<D: Detector> Exact<D> {
             let t = straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach);
             t.map(|after| Due { after, sure: true })
         } else {
-            let relative = path.relative_to(&self.flight.path(j, self.now));
-            self.detector.pair(&relative, reach, self.span_before(plan.contact))
+            // what j meets before makes it look around anew, and find i then
+            let before = if D::SOLVES { plan.contact } else { plan.contact.min(self.plans[j].contact) };
+            self.detector.pair(path, &self.flight.path(j, self.now), reach, self.span_before(before))
         };
         let Some(due) = found else { return 1 };
         self.offer(i, j, due, plan)

@@ -23,9 +23,9 @@ impl Detector for Roots {
     }
 
     #[inline]
-    fn pair(&self, path: &Path, reach: f64, span: Span) -> Option<Due> {
-        sphere_sphere(path, reach, span.before).map(|after| Due { after, sure: true })
+    fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
+        sphere_sphere(&a.relative_to(b), reach, span.before).map(|after| Due { after, sure: true })
     }
 
-    fn report(&mut self, _: f64, _: &mut Log) {}
+    fn report(&mut self, _: f64, _: f64, _: &mut Log) {}
 }

@@ -112,6 +112,8 @@ pub(super) struct Row {
     pub(super) normal: DVec3,
     /// c, m/s.
     pub(super) offset: f64,
+    /// c without a rebound, way / h, m/s.
+    pub(super) reached: f64,
     /// −v_n that the impact law saw, m/s.
     pub(super) approach: f64,
     pub(super) class: Class,
@@ -166,8 +168,11 @@ impl Row {
     pub(super) fn new(path: &Path, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
         let law = &path.model.law;
         let e = if path.key.0 == Kind::Wall { law.wall_restitution } else { law.restitution };
-        let reached = (meeting.way / terms.h).max(-terms.push);
         let gravity = pull(path.model, path.key) * terms.h;
+        // What the solver may miss is not corrected: the problem of bodies at rest is then the same in every frame, and
+        // the sweeps of all frames converge on one solution instead of chasing their own corrections.
+        let still = terms.tolerance * (law.rest_speed + gravity).min(path.size() / terms.h) * terms.h;
+        let reached = if meeting.way.abs() <= still { 0.0 } else { (meeting.way / terms.h).max(-terms.push) };
         let share = terms.tolerance * (law.rest_speed + gravity + speeds.closing.abs());
         let rounding = ROUNDING * (path.velocity.length() + gravity + reached.abs());
         Row {
@@ -175,6 +180,7 @@ impl Row {
             normal: meeting.normal,
             // v_n⁺ ≥ e · approach, or closing no more than the way that is left.
             offset: if speeds.struck && e > 0.0 { -e * speeds.approach } else { reached },
+            reached,
             approach: speeds.approach,
             class: if speeds.struck { Class::Collide } else { Class::Rest },
             slack: share.min(terms.tolerance * path.size() / terms.h).max(rounding),

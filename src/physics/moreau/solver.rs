@@ -4,10 +4,14 @@
 //! Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 12.4). It fails in silence where masses are unlike, so
 //! that islands of unlike masses go to `support`'s direct solver at once, and those that sweeping has not solved in
 //! time go there too, as long as they are small. Whatever is left is said in the outcome.
+//!
+//! Newton's law in several contacts at once can create energy. An island that would is solved once more without
+//! rebounds, which never creates any, and takes the mean of both, u = (1 − s) u_without + s u_with, with the largest s
+//! that keeps its kinetic energy: every condition that both fulfil the mean fulfils too.
 
 use glam::DVec3;
 
-use super::super::support::{self, islands};
+use super::super::support::{self, Island, islands};
 use super::super::{Kind, Model};
 use super::meeting::Row;
 
@@ -17,11 +21,26 @@ const UNLIKE_MASSES: f64 = 100.0;
 /// Rows up to which an island is solved directly at all: some milliseconds, and the cost grows with the cube.
 const MOST_DIRECT_ROWS: usize = 400;
 
+/// Rows up to which an island goes to the direct solver as soon as sweeping takes long: about a millisecond.
+const DIRECT_ROWS: usize = 160;
+
 /// Rows solved in all until islands are solved directly that are small enough: about what the direct solver costs.
 const PATIENCE: usize = 60_000;
 
 /// Most sweeps over rows of which none may be solved directly.
 const MOST_SWEEPS: usize = 3000;
+
+/// Fewest sweeps before that, however many rows there are.
+const LEAST_SWEEPS: usize = 20;
+
+/// Sweeps after which the residual is looked at even though rows still move: with tolerance 0 they always do.
+const SWEEPS_PER_LOOK: usize = 16;
+
+/// Relative size of what rounding leaves of a body's velocity after many pushes, about 1e-13.
+const ROUNDING: f64 = 512.0 * f64::EPSILON;
+
+/// Share by which an island's kinetic energy may grow before it counts as a gain: rounding.
+const GAIN: f64 = 1e-12;
 
 /// No sphere: the second body of a wall's row, of infinite mass.
 const WALL: u32 = u32::MAX;
@@ -44,6 +63,20 @@ struct Line {
     weight: f64,
     slack: f64,
     impulse: f64,
+    /// Whether its island needs no sweeps: it has been solved directly, or another one is solved without rebounds.
+    settled: bool,
+}
+
+/// An island that would gain energy, and its solution with rebounds.
+#[derive(Debug, Clone)]
+struct Gain {
+    island: Island,
+    /// By body, m/s.
+    u: Vec<DVec3>,
+    /// By contact, N s.
+    impulses: Vec<f64>,
+    /// Σ m u² that it may have, J.
+    allowed: f64,
 }
 
 /// What the solver does next.
@@ -60,8 +93,10 @@ enum Stage {
 pub(super) struct Solver {
     bodies: Vec<Body>,
     lines: Vec<Line>,
-    /// Whether a line's island has been solved directly.
-    settled: Vec<bool>,
+    /// Up to how many rows islands have been solved directly already.
+    resorted: usize,
+    /// Islands being solved without rebounds.
+    gains: Vec<Gain>,
     /// Whether all masses are alike enough for sweeping.
     alike: bool,
     stage: Stage,
@@ -78,7 +113,8 @@ impl Solver {
         Solver {
             bodies: Vec::new(),
             lines: Vec::new(),
-            settled: Vec::new(),
+            resorted: 0,
+            gains: Vec::new(),
             alike: model.is_empty() || most / least < UNLIKE_MASSES,
             stage: Stage::Done,
             converged: true,
@@ -98,91 +134,180 @@ impl Solver {
         self.bodies.extend(free.iter().zip(&model.inverse_masses).map(|(&u, &inverse_mass)| Body { u, inverse_mass }));
         self.lines.clear();
         self.lines.extend(rows.iter().map(|row| line(model, row)));
-        self.settled.clear();
-        self.settled.resize(rows.len(), false);
+        self.gains.clear();
         for line in &self.lines {
             if line.impulse > 0.0 {
                 push(&mut self.bodies, line, line.impulse);
             }
         }
-        if !self.alike {
-            self.solve_directly(model, free, |ratio| ratio >= UNLIKE_MASSES);
-        }
-        self.stage = if rows.is_empty() { Stage::Done } else { Stage::Sweep(0) };
+        self.set_out(model, free);
     }
 
-    /// Goes on: whether it is done, and the work that took.
-    pub(super) fn go_on(&mut self, model: &Model, free: &[DVec3]) -> (bool, u64) {
+    /// Begins to sweep; islands of unlike masses are solved at once.
+    fn set_out(&mut self, model: &Model, free: &[DVec3]) {
+        self.resorted = 0;
+        self.stage = Stage::Sweep(0);
+        if !self.alike {
+            self.solve_directly(model, free, MOST_DIRECT_ROWS, |ratio| ratio >= UNLIKE_MASSES);
+        }
+    }
+
+    /// Goes on, with the velocities of the frame's start, m/s: whether it is done, and the work that took.
+    pub(super) fn go_on(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) -> (bool, u64) {
         let Stage::Sweep(sweeps) = self.stage else { return (true, 0) };
         let calm = self.sweep(true) & self.sweep(false);
         self.stage = Stage::Sweep(sweeps + 2);
-        let rows = self.lines.len();
-        self.solved += 2 * rows as u64;
-        if calm && self.is_solved() {
+        let count = self.lines.len();
+        self.solved += 2 * count as u64;
+        if (calm || sweeps % SWEEPS_PER_LOOK == 0) && self.is_solved() {
             self.stage = Stage::Done;
-        } else if sweeps * rows >= PATIENCE && sweeps + 2 >= 20 {
-            self.stage = self.give_up(model, free, sweeps);
+        } else if sweeps * count >= PATIENCE && sweeps >= LEAST_SWEEPS {
+            self.give_up(model, free, sweeps);
         }
-        (self.stage == Stage::Done, 2 * rows as u64)
+        if self.stage == Stage::Done {
+            self.keep_energy(model, free, v, rows);
+        }
+        (self.stage == Stage::Done, 2 * count as u64)
     }
 
     /// Sweeping has taken long: small islands are solved directly, the others swept on for a while.
-    fn give_up(&mut self, model: &Model, free: &[DVec3], sweeps: usize) -> Stage {
-        if self.settled.iter().all(|&settled| !settled) {
-            self.solve_directly(model, free, |_| true);
+    fn give_up(&mut self, model: &Model, free: &[DVec3], sweeps: usize) {
+        let rows = if sweeps >= MOST_SWEEPS { MOST_DIRECT_ROWS } else { DIRECT_ROWS };
+        if self.resorted < rows {
+            self.resorted = rows;
+            self.solve_directly(model, free, rows, |_| true);
         }
-        self.converged = self.is_solved();
-        let more = sweeps < MOST_SWEEPS && self.settled.contains(&false);
-        if self.converged || !more { Stage::Done } else { Stage::Sweep(sweeps) }
+        let solved = self.is_solved();
+        if solved || sweeps >= MOST_SWEEPS || self.lines.iter().all(|line| line.settled) {
+            self.converged &= solved;
+            self.stage = Stage::Done;
+        }
     }
 
     /// One sweep over all lines, forwards or backwards; whether no row moved by more than its slack.
     fn sweep(&mut self, forwards: bool) -> bool {
-        let Solver { bodies, lines, settled, .. } = self;
+        let Solver { bodies, lines, .. } = self;
         let mut calm = true;
-        let mut relax = |(line, settled): (&mut Line, &bool)| {
-            if !settled {
+        // Two loops: one over a boxed or chained iterator costs a call a row.
+        if forwards {
+            for line in lines.iter_mut().filter(|line| !line.settled) {
                 calm &= relax(bodies, line);
             }
-        };
-        if forwards {
-            lines.iter_mut().zip(settled.iter()).for_each(&mut relax);
         } else {
-            lines.iter_mut().zip(settled.iter()).rev().for_each(&mut relax);
+            for line in lines.iter_mut().rev().filter(|line| !line.settled) {
+                calm &= relax(bodies, line);
+            }
         }
         calm
     }
 
-    /// Whether every row is complementary: |min(J u + c, Λ A_jj)| within its slack.
+    /// Whether every row is complementary: |min(J u + c, Λ A_jj)| within its slack, or within the rounding of what
+    /// its bodies carry.
     fn is_solved(&self) -> bool {
-        self.lines.iter().all(|line| {
-            let residual = opening(&self.bodies, line).min(line.impulse / line.weight).abs();
-            residual <= line.slack
-        })
+        let residual = |line: &Line| opening(&self.bodies, line).min(line.impulse / line.weight).abs();
+        if self.lines.iter().all(|line| residual(line) <= line.slack) {
+            return true;
+        }
+        // All that is pushed into and out of a body's velocity, m/s.
+        let mut load = vec![0.0; self.bodies.len()];
+        for line in &self.lines {
+            load[line.a as usize] += line.impulse * self.bodies[line.a as usize].inverse_mass;
+            if let Some(b) = other(line) {
+                load[b] += line.impulse * self.bodies[b].inverse_mass;
+            }
+        }
+        let carried = |line: &Line| load[line.a as usize] + other(line).map_or(0.0, |b| load[b]);
+        self.lines.iter().all(|line| residual(line) <= line.slack.max(ROUNDING * carried(line)))
     }
 
-    /// Solves those islands directly that are small enough and whose ratio of masses is `wanted`.
-    fn solve_directly(&mut self, model: &Model, free: &[DVec3], wanted: impl Fn(f64) -> bool) {
-        let other = |line: &Line| (line.b != WALL).then_some(line.b as usize);
-        let links: Vec<_> = self.lines.iter().map(|line| (line.a as usize, other(line))).collect();
-        for island in islands(&links) {
+    /// Sets out without rebounds for islands that would gain energy; if that is done already, takes the means.
+    fn keep_energy(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) {
+        if !self.gains.is_empty() {
+            self.take_means(model);
+        } else if rows.iter().any(|row| row.offset < row.reached) {
+            self.gains = self.find_gains(model, free, v);
+            if !self.gains.is_empty() {
+                self.drop_rebounds(free, rows);
+                self.set_out(model, free);
+            }
+        }
+    }
+
+    fn find_gains(&self, model: &Model, free: &[DVec3], v: &[DVec3]) -> Vec<Gain> {
+        let mut gains = Vec::new();
+        for island in islands(&self.links()) {
+            let energy = |u: &dyn Fn(usize) -> DVec3| -> f64 {
+                island.bodies.iter().map(|&body| model.masses[body] * u(body).length_squared()).sum()
+            };
+            let allowed = energy(&|body| free[body]).max(energy(&|body| v[body]));
+            if energy(&|body| self.bodies[body].u) > allowed * (1.0 + GAIN) {
+                let u = island.bodies.iter().map(|&body| self.bodies[body].u).collect();
+                let impulses = island.contacts.iter().map(|&index| self.lines[index].impulse).collect();
+                gains.push(Gain { island, u, impulses, allowed });
+            }
+        }
+        gains
+    }
+
+    /// The islands of `gains` from the start and without rebounds; all others stay as they are.
+    fn drop_rebounds(&mut self, free: &[DVec3], rows: &[Row]) {
+        self.lines.iter_mut().for_each(|line| line.settled = true);
+        for gain in &self.gains {
+            gain.island.bodies.iter().for_each(|&body| self.bodies[body].u = free[body]);
+            for &index in &gain.island.contacts {
+                let line = &mut self.lines[index];
+                line.settled = false;
+                line.offset = rows[index].reached;
+                push(&mut self.bodies, line, line.impulse);
+            }
+        }
+    }
+
+    /// u = u_without + s (u_with − u_without), with Σ m u² = what is allowed, and likewise the impulses.
+    fn take_means(&mut self, model: &Model) {
+        for gain in &self.gains {
+            let (mut without, mut mixed, mut change) = (0.0, 0.0, 0.0);
+            for (&body, &with) in gain.island.bodies.iter().zip(&gain.u) {
+                let (m, u) = (model.masses[body], self.bodies[body].u);
+                without += m * u.length_squared();
+                mixed += m * u.dot(with - u);
+                change += m * (with - u).length_squared();
+            }
+            let room = (gain.allowed - without).max(0.0);
+            let share = (((mixed * mixed + change * room).sqrt() - mixed) / change).clamp(0.0, 1.0);
+            // 0 / 0 where both are the same.
+            let share = if share.is_nan() { 0.0 } else { share };
+            for (&body, &with) in gain.island.bodies.iter().zip(&gain.u) {
+                let u = &mut self.bodies[body].u;
+                *u += (with - *u) * share;
+            }
+            for (&index, &with) in gain.island.contacts.iter().zip(&gain.impulses) {
+                let impulse = &mut self.lines[index].impulse;
+                *impulse += (with - *impulse) * share;
+            }
+        }
+    }
+
+    /// The bodies that each line connects.
+    fn links(&self) -> Vec<(usize, Option<usize>)> {
+        self.lines.iter().map(|line| (line.a as usize, other(line))).collect()
+    }
+
+    /// Solves those unsettled islands directly that are small enough and whose ratio of masses is `wanted`.
+    fn solve_directly(&mut self, model: &Model, free: &[DVec3], most_rows: usize, wanted: impl Fn(f64) -> bool) {
+        for island in islands(&self.links()) {
             let masses = island.bodies.iter().map(|&body| model.masses[body]);
             let (least, most) = masses.fold((f64::INFINITY, 0.0_f64), |(l, m), mass| (l.min(mass), m.max(mass)));
-            if island.contacts.len() > MOST_DIRECT_ROWS || !wanted(most / least) {
+            let settled = self.lines[island.contacts[0]].settled;
+            if settled || island.contacts.len() > most_rows || !wanted(most / least) {
                 continue;
             }
-            let row = |line: &Line| support::Row {
-                a: line.a as usize,
-                b: other(line),
-                normal: line.normal,
-                offset: line.offset,
-            };
             let rows: Vec<_> = island.contacts.iter().map(|&index| row(&self.lines[index])).collect();
             let guess: Vec<f64> = island.contacts.iter().map(|&index| self.lines[index].impulse).collect();
             let solution = support::solve(&model.inverse_masses, free, &rows, &guess);
             for (&index, &impulse) in island.contacts.iter().zip(&solution.multipliers) {
                 self.lines[index].impulse = impulse;
-                self.settled[index] = true;
+                self.lines[index].settled = true;
             }
             for (&body, &u) in solution.bodies.iter().zip(&solution.vectors) {
                 self.bodies[body].u = u;
@@ -210,7 +335,16 @@ fn line(model: &Model, row: &Row) -> Line {
     };
     let weight = 1.0 / (model.inverse_masses[a] + inverse);
     let Row { normal, offset, slack, impulse, .. } = *row;
-    Line { a: a as u32, b, normal, offset, weight, slack, impulse }
+    Line { a: a as u32, b, normal, offset, weight, slack, impulse, settled: false }
+}
+
+fn other(line: &Line) -> Option<usize> {
+    (line.b != WALL).then_some(line.b as usize)
+}
+
+/// A line as the direct solver takes it.
+fn row(line: &Line) -> support::Row {
+    support::Row { a: line.a as usize, b: other(line), normal: line.normal, offset: line.offset }
 }
 
 /// J u + c of a row, m/s.

@@ -27,6 +27,9 @@ const NEAR: f64 = 1e-3;
 /// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
 const HOP: f64 = 4.0 * f64::EPSILON;
 
+/// Normal velocities below this share of the bodies' speeds are rounding: 64 ulp.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Coarsest time scale at which rounding of the clock is ignored, s.
 const CLOCK: f64 = 1e-3;
 
@@ -39,7 +42,7 @@ pub(in crate::physics) struct Advance {
     /// Deepest overlap accepted, dimensionless.
     tolerance: f64,
     evaluations: Cell<u64>,
-    /// Close looks: when, s, and the degree seen.
+    /// Close looks not yet told: when, s, and the degree seen.
     probes: RefCell<Vec<(f64, f64)>>,
 }
 
@@ -55,15 +58,26 @@ impl Detector for Advance {
         self.search(&Wall { path, r, face }, span)
     }
 
-    fn pair(&self, path: &Path, reach: f64, span: Span) -> Option<Due> {
-        self.search(&Pair { path, reach }, span)
+    fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
+        let pair = Pair::new(a, b, reach);
+        if pair.parts_for_good() {
+            self.count();
+            return None;
+        }
+        self.search(&pair, span)
     }
 
-    fn report(&mut self, start: f64, log: &mut Log) {
+    fn report(&mut self, start: f64, end: f64, log: &mut Log) {
         log.tallies.evaluations += self.evaluations.take();
-        let probes = self.probes.get_mut();
-        log.tallies.probes += probes.len() as u64;
-        log.probes.extend(probes.drain(..).map(|(time, degree)| Probe { step: time - start, degree }));
+        let before = log.probes.len();
+        self.probes.get_mut().retain(|&(time, degree)| {
+            // what was seen of later frames is told in theirs
+            if time <= end {
+                log.probes.push(Probe { step: time - start, degree });
+            }
+            time > end
+        });
+        log.tallies.probes += (log.probes.len() - before) as u64;
     }
 }
 
@@ -80,8 +94,7 @@ impl Advance {
             let wide = seen.gap > 2.0 * near;
             let step = if wide { wide_step(seen, near) } else { self.close_step(sight, seen) }?;
             let next = later(span.now, s, step);
-            // not "next >= before": a step that is no number ends the search too
-            if !(next < span.before) {
+            if next >= span.before || next.is_nan() {
                 return None;
             }
             let last = std::mem::replace(&mut s, next);
@@ -91,7 +104,9 @@ impl Advance {
                 return Some(Due { after: s, sure: false });
             }
             if !wide {
-                self.note(sight, span.now + s, seen);
+                if seen.gap <= 2.0 * near {
+                    self.note(sight, span.now + s, seen);
+                }
                 if seen.gap < -self.tolerance * sight.reach() && last < s && closes(sight, s, seen) {
                     return Some(Due { after: self.halve(sight, span.now, [last, s]), sure: true });
                 }
@@ -106,13 +121,12 @@ impl Advance {
         if gap > 0.0 {
             return quadratic_fall([gap + 0.5 * self.tolerance * sight.reach(), v_n, 0.5 * a_n]);
         }
-        // unless something presses it, it will never be deeper than it is
-        let pull = sight.pull();
-        if a_n >= 0.0 {
-            return None;
+        // unless something presses it, it will never be deeper than it is, but for rounding
+        let (pull, rounding) = (sight.pull(), HOP * sight.size());
+        if a_n >= 0.0 || v_n * v_n <= 2.0 * pull * rounding {
+            return quadratic_fall([rounding, v_n, 0.5 * a_n]);
         }
-        let rounding = HOP * sight.size();
-        if v_n * v_n <= 2.0 * pull * rounding { quadratic_fall([rounding, v_n, 0.5 * a_n]) } else { Some(v_n / pull) }
+        Some(v_n / pull)
     }
 
     /// The contact within a step (s from now) from outside to deeper than the tolerance.
@@ -149,9 +163,10 @@ fn wide_step(seen: Glance, near: f64) -> Option<f64> {
     quadratic_fall([seen.gap - 0.5 * near, seen.v_n, 0.5 * seen.a_n])
 }
 
-/// Whether the gap is about to shrink.
+/// Whether the gap is about to shrink. Where only rounding says so, what presses decides: of three spheres in a row that
+/// have stopped approaching each other, rounding would otherwise have the outer two push the middle one to and fro.
 fn closes(sight: &impl Sight, s: f64, seen: Glance) -> bool {
-    seen.v_n < 0.0 || (seen.v_n == 0.0 && sight.bend(s) < 0.0)
+    seen.v_n < 0.0 && seen.v_n < -ROUNDING * sight.speed(s) || seen.v_n <= 0.0 && sight.bend(s) < 0.0
 }
 
 /// A step after `s` (s from now), which the clock must be able to tell from it.

@@ -31,6 +31,8 @@ pub(super) trait Sight {
     fn size(&self) -> f64;
     /// Largest acceleration along any normal, m/s².
     fn pull(&self) -> f64;
+    /// Size of the velocities that v_n is a difference of, m/s.
+    fn speed(&self, s: f64) -> f64;
 }
 
 /// A sphere of radius `r` (m) and a wall.
@@ -65,12 +67,30 @@ impl Sight for Wall<'_> {
     fn pull(&self) -> f64 {
         self.path.a.length()
     }
+
+    fn speed(&self, s: f64) -> f64 {
+        self.path.velocity(s).length()
+    }
 }
 
-/// Two spheres whose radii sum to `reach` (m), one seen from the other.
+/// Two spheres whose radii sum to `reach` (m).
 pub(super) struct Pair<'a> {
-    pub(super) path: &'a Path,
-    pub(super) reach: f64,
+    paths: [&'a Path; 2],
+    /// That of the first centre seen from the second.
+    path: Path,
+    reach: f64,
+}
+
+impl<'a> Pair<'a> {
+    pub(super) fn new(a: &'a Path, b: &'a Path, reach: f64) -> Pair<'a> {
+        Pair { paths: [a, b], path: a.relative_to(b), reach }
+    }
+
+    /// Whether two spheres that part go on doing so: without relative acceleration, distances are convex in time. The
+    /// answer for half of all pairs, without a root.
+    pub(super) fn parts_for_good(&self) -> bool {
+        self.path.a == DVec3::ZERO && self.path.x.dot(self.path.v) >= 0.0
+    }
 }
 
 impl Sight for Pair<'_> {
@@ -94,10 +114,14 @@ impl Sight for Pair<'_> {
     }
 
     fn size(&self) -> f64 {
-        self.reach
+        self.paths.iter().map(|path| path.x.abs().max_element()).fold(self.reach, f64::max)
     }
 
     fn pull(&self) -> f64 {
         self.path.a.length()
+    }
+
+    fn speed(&self, s: f64) -> f64 {
+        self.paths.iter().map(|path| path.velocity(s).length()).sum()
     }
 }

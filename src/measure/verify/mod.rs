@@ -1,0 +1,150 @@
+//! Known results of physics and mathematics, measured on this machine.
+//!
+//! No expected value is an earlier result of ours, except for the golden hashes. Statistical rows have fixed seeds:
+//! what passes on one machine passes on all. Time is never part of a result.
+//!
+//! | file | owns |
+//! |---|---|
+//! | `lab` | how thoroughly, how a run is advanced, what a row is |
+//! | `bodies` | scenes built in code |
+//! | `statistics` | means, standard errors, slopes |
+//! | `table` | the results as text |
+//! | the rest | one family of results each |
+
+mod bodies;
+mod bounces;
+mod chains;
+mod cooling;
+mod gas;
+mod golden;
+mod lab;
+mod mixture;
+mod pressure;
+mod rest;
+mod reversal;
+mod statistics;
+mod steps;
+pub mod table;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+pub use golden::{GOLDEN, Golden};
+pub use lab::{Depth, Lab, Row, Trouble};
+
+/// A family of known results that are measured together.
+#[derive(Debug, Clone, Copy)]
+pub struct Check {
+    /// What it is about, in two or three words.
+    pub title: &'static str,
+    /// What is expected, and who says so.
+    pub source: &'static str,
+    /// Why an error of that size is allowed.
+    pub allowed: &'static str,
+    measure: fn(&Lab) -> Result<Vec<Row>, Trouble>,
+}
+
+/// Every family, in the order in which they are told.
+pub const CHECKS: &[Check] = &[
+    bounces::CHECK,
+    chains::DIGITS,
+    chains::CRADLE,
+    pressure::CHECK,
+    cooling::CHECK,
+    mixture::CHECK,
+    steps::DT,
+    steps::TOLERANCE,
+    steps::TUNNELLING,
+    reversal::CHECK,
+    rest::CHECK,
+    golden::CHECK,
+];
+
+impl Check {
+    /// Measures its rows; never empty.
+    ///
+    /// # Errors
+    /// If a run stalls, or the lab is not to go on.
+    pub fn rows(&self, lab: &Lab) -> Result<Vec<Row>, Trouble> {
+        (self.measure)(lab)
+    }
+}
+
+/// What became of a check: its place in [`CHECKS`], and its rows or why there are none.
+pub type Outcome = (usize, Result<Vec<Row>, Trouble>);
+
+/// Measures every check on so many threads, and tells each outcome as soon as it is there, in any order.
+pub fn verify(lab: Lab, threads: usize, mut tell: impl FnMut(Outcome)) {
+    let (next, (outcomes, inbox)) = (AtomicUsize::new(0), mpsc::channel());
+    thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, CHECKS.len()) {
+            let (next, outcomes) = (&next, outcomes.clone());
+            scope.spawn(move || {
+                while let Some((index, check)) = claim(next) {
+                    // Nobody listens any more: the reader has gone, and so may we.
+                    if outcomes.send((index, check.rows(&lab))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(outcomes);
+        inbox.into_iter().for_each(&mut tell);
+    });
+}
+
+fn claim(next: &AtomicUsize) -> Option<(usize, &'static Check)> {
+    let index = next.fetch_add(1, Ordering::Relaxed);
+    CHECKS.get(index).map(|check| (index, check))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::broken::with_restitution_times;
+
+    /// Titles of the checks that fail under a law of that restitution, but for `left_out`.
+    fn failing(pairs: f64, walls: f64, left_out: &[&str]) -> Vec<&'static str> {
+        let lab = Lab::new(Depth::Quick, &|| true);
+        let fails = |check: &&Check| check.rows(&lab).map_or(true, |rows| !rows.iter().all(Row::passes));
+        let checks = CHECKS.iter().filter(|check| !left_out.contains(&check.title));
+        with_restitution_times(pairs, walls, || checks.filter(fails).map(|check| check.title).collect())
+    }
+
+    /// What takes most of the time; `verify --quick` itself is a test of its own.
+    const GASES: [&str; 3] = ["hard spheres", "Haff's law", "equipartition"];
+
+    #[test]
+    fn under_the_right_law_every_check_has_rows_that_pass_and_names_that_fit() {
+        let lab = Lab::new(Depth::Quick, &|| true);
+        for check in CHECKS.iter().filter(|check| !GASES.contains(&check.title)) {
+            let rows = check.rows(&lab).expect("a result");
+            let fine = |row: &Row| row.passes() && row.what.chars().count() <= 28;
+            assert!(!rows.is_empty() && rows.iter().all(fine), "{rows:?}");
+        }
+    }
+
+    #[test]
+    fn whatever_pairs_decide_fails_if_they_lose_a_hundredth_more() {
+        // In neither scene of the time reversal do spheres meet before it turns.
+        let expected = ["Galperin's billiard", "Newton's cradle", "hard spheres", "Haff's law", "golden hashes"];
+        assert_eq!(failing(0.99, 1.0, &["equipartition"]), expected);
+    }
+
+    #[test]
+    fn whatever_walls_decide_fails_if_they_take_a_hundredth_more() {
+        let expected =
+            ["bouncing ball", "Galperin's billiard", "order in the tolerance", "time reversal", "golden hashes"];
+        assert_eq!(failing(1.0, 0.99, &GASES), expected);
+    }
+
+    #[test]
+    fn who_is_told_not_to_go_on_has_no_result() {
+        let lab = Lab::new(Depth::Quick, &|| false);
+        let mut told = Vec::new();
+        verify(lab, 2, |(index, outcome)| told.push((index, outcome == Err(Trouble::Interrupted))));
+        told.sort_unstable();
+        assert_eq!(told, (0..CHECKS.len()).map(|index| (index, true)).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,57 @@
+//! What resting contacts carry, for whoever looks: the run itself needs none of it.
+
+use super::*;
+
+/// The support force of a resting contact, and what it has given since the frame began.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Load {
+    /// N, along the normal; of a curved rest that of its last settling.
+    force: f64,
+    /// Since when, s.
+    since: f64,
+    /// What was given in this frame before that, N s.
+    impulse: f64,
+}
+
+impl Load {
+    /// The impulse of the frame until `time` (s), N s.
+    fn given(&self, time: f64) -> f64 {
+        self.impulse + self.force * (time - self.since)
+    }
+}
+
+impl Rests {
+    /// A frame begins at `time`, s.
+    pub(in crate::physics::exact) fn begin_frame(&mut self, time: f64) {
+        for held in self.held.values_mut() {
+            held.load = Load { since: time, impulse: 0.0, ..held.load };
+        }
+    }
+}
+
+impl<D: Detector> Exact<D> {
+    /// The contacts of an island carry these forces (N) from now on.
+    pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64]) {
+        let (now, start) = (self.now, self.frame.time);
+        for (key, &force) in keys.iter().zip(forces) {
+            let Some(held) = self.rests.held.get_mut(key) else { continue };
+            held.load.since = held.load.since.max(start);
+            held.load = Load { force, since: now, impulse: held.load.given(now) };
+        }
+    }
+
+    /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
+    /// given in the frame.
+    pub(in crate::physics::exact) fn list_rests(&mut self, model: &Model, log: &mut Log, end: f64) {
+        let (start, met) = (self.frame.time, log.contacts.len());
+        for (&key, held) in &self.rests.held {
+            let impulse = Load { since: held.load.since.max(start), ..held.load }.given(end);
+            let begun = |row: &crate::physics::Contact| row.class == Class::Rest && row.key() == key;
+            if held.announced && !log.contacts[..met].iter().any(begun) {
+                let row = self.seen(model, key, end).row(end, Class::Rest, impulse, 0.0);
+                log.contacts.push(crate::physics::Contact { approach_speed: 0.0, ..row });
+            }
+        }
+        self.rests.begin_frame(end);
+    }
+}
