@@ -25,8 +25,11 @@ const SLOTS: usize = 3;
 /// Copied at once from a place: its slots and its mark.
 const PLACE: usize = SLOTS + 1;
 
-/// Room for what the 27 places around a sphere hold without spilling, the mark of the last, and padding to four.
-const ROOM: usize = 27 * SLOTS + 1 + 4;
+/// What the 27 places around a sphere hold without spilling is fewer than this.
+const MOST_NEAR: usize = 128;
+
+/// Room for it, one more place and padding to four.
+const ROOM: usize = MOST_NEAR + 2 * PLACE;
 
 /// In a mark: where the number of spheres in slots begins.
 const COUNT: u32 = 30;
@@ -120,14 +123,6 @@ impl Near {
         (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
     }
 
-    /// Copies all slots of a place and counts those in use; returns its mark.
-    #[inline(always)]
-    fn take(&mut self, place: &Place) -> u32 {
-        self.seats[self.count..self.count + PLACE].copy_from_slice(&place.0);
-        self.count += place.count();
-        place.0[SLOTS]
-    }
-
     fn push(&mut self, seat: u32) {
         self.seats[self.count] = seat;
         self.count += 1;
@@ -200,15 +195,21 @@ impl Cells {
     /// Copies the seats of all places whose number is a sum of one share of each axis.
     #[inline(always)]
     fn gather<const N: usize>(&self, ones: [u32; N], twos: [u32; 3], threes: [u32; 3], near: &mut Near) {
-        near.count = 0;
-        let mut marks = NOBODY;
+        let (mut count, mut marks) = (0, NOBODY);
+        let Some(seats) = near.seats.first_chunk_mut::<ROOM>() else { return };
         for three in threes {
             for two in twos {
                 for one in ones {
-                    marks &= near.take(&self.places[(one + two + three) as usize]);
+                    let Place(slots) = &self.places[(one + two + three) as usize];
+                    // the remainder says no more than that there is room
+                    let free = count % MOST_NEAR;
+                    seats[free..free + PLACE].copy_from_slice(slots);
+                    count += (slots[SLOTS] >> COUNT) as usize;
+                    marks &= slots[SLOTS];
                 }
             }
         }
+        near.count = count;
         if marks & NOBODY != NOBODY {
             self.gather_spilled(&ones, twos, threes, near);
         }

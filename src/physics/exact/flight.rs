@@ -185,12 +185,22 @@ impl Flight {
 
     /// Brings the line of sphere `i` to time `t`, s.
     #[inline]
-    pub(super) fn bring(&mut self, i: usize, t: f64) -> Path {
-        let path = self.path(i, t);
-        if self.line(i).t != t {
-            self.rewrite(i, t, path.x, path.v);
+    pub(super) fn bring(&mut self, i: usize, t: f64) {
+        let (seat, acceleration) = (self.seat(i), self.acceleration(i));
+        let line = &mut self.records[seat].line;
+        let dt = t - line.t;
+        if dt != 0.0 {
+            self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
+            let (x, v) = (line.x + (line.v + acceleration * (0.5 * dt)) * dt, line.v + acceleration * dt);
+            *line = Line { x, t, v, r: line.r };
         }
-        path
+    }
+
+    /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
+    #[inline]
+    pub(super) fn kick(&mut self, i: usize, change: DVec3) {
+        let seat = self.seat(i);
+        self.records[seat].line.v += change;
     }
 
     /// Gives sphere `i`, whose line is at the present, another acceleration, m/s².

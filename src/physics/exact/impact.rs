@@ -259,7 +259,7 @@ impl Exact {
             Kind::Wall => {
                 let v = self.flight.line(a).v;
                 let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
-                self.push(a, meeting.normal * change + slip);
+                self.flight.kick(a, meeting.normal * change + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
@@ -269,8 +269,8 @@ impl Exact {
                 let (share_a, share_b) = (self.flight.inverse_mass(a), self.flight.inverse_mass(b));
                 let share = share_a + share_b;
                 let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
-                self.push(a, push * share_a);
-                self.push(b, push * -share_b);
+                self.flight.kick(a, push * share_a);
+                self.flight.kick(b, push * -share_b);
                 change / share
             }
         };
@@ -291,12 +291,6 @@ impl Exact {
         Ok(())
     }
 
-    /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
-    fn push(&mut self, i: usize, change: DVec3) {
-        let line = *self.flight.line(i);
-        self.flight.rewrite(i, self.now, line.x, line.v + change);
-    }
-
     /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
     /// again and again. The body that is freer gives way.
     pub(super) fn part(&mut self, model: &Model, key: Key, least: f64) {
@@ -310,7 +304,7 @@ impl Exact {
                 return;
             }
             let normal = self.seen(model, key).normal;
-            self.push(i, normal * (sign * nudge.max(least - v_n)));
+            self.flight.kick(i, normal * (sign * nudge.max(least - v_n)));
             nudge *= 2.0;
         }
     }

@@ -58,7 +58,7 @@ pub(super) struct Exact {
     queue: Queue,
     /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
     next: Option<(f64, usize)>,
-    cells: Option<Cells>,
+    cells: Option<Box<Cells>>,
     /// Lent to whoever looks around.
     near: Near,
     /// Crossings since the spheres were seated.
@@ -100,7 +100,7 @@ impl Engine for Exact {
             flight: Flight::new(model, &state),
             queue: Queue::new(count),
             next: None,
-            cells: (count > FEW).then(|| Cells::new(model, &state)),
+            cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
             near: Near::nobody(),
             crossings: 0,
             scout: Scout::default(),

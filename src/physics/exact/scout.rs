@@ -10,7 +10,7 @@ use super::cells::Near;
 use crate::physics::Kind;
 
 /// Fewer spheres are in a fast cache anyhow.
-const MANY: usize = 6000;
+const MANY: usize = 20_000;
 
 /// How many events ahead the places around are asked for, then the lines there, then those around the partner.
 const PLACES: usize = 12;
