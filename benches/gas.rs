@@ -40,6 +40,7 @@ fn main() {
     for packing in [0.1, 0.3] {
         measure(&gas(packing, 10_000, -9.8), packing, 20, 5);
     }
+    swept_beside_exact();
     println!("scenes that others have measured");
     energy_of_666();
     bouncing_49();
@@ -92,6 +93,39 @@ fn measure(scene: &Scene, packing: f64, warm: u64, blocks: usize) -> f64 {
         bytes(&run).map_or("unknown".into(), |bytes| format!("{:.0}", bytes / count as f64)),
     );
     1e9 * best
+}
+
+/// What a simulated second costs `swept`, and how many times what it costs `exact`.
+fn swept_beside_exact() {
+    println!("swept, packing 0.1, frames of 0.01 s");
+    for (count, span, rounds) in [(1000, 10.0, 5), (10_000, 1.0, 5)] {
+        let scene = gas(0.1, count);
+        let by_exact = per_second(&scene, EXACT, span, rounds);
+        for tolerance in [1e-3, 1e-6, 1e-12] {
+            let swept = per_second(&scene, Settings { method: Method::Swept, dt: 0.01, tolerance }, span, rounds);
+            println!(
+                "  {count:>7} spheres, tolerance {tolerance:e}: {:.1} ms of CPU per simulated second (worst {:.1}), {:.2} times exact's {:.1} ms",
+                1e3 * swept.0,
+                1e3 * swept.1,
+                swept.0 / by_exact.0,
+                1e3 * by_exact.0
+            );
+        }
+    }
+}
+
+/// Best and worst CPU time per simulated second of some stretches of a run, s.
+fn per_second(scene: &Scene, settings: Settings, span: f64, rounds: usize) -> (f64, f64) {
+    let mut run = Simulation::new(scene, settings);
+    run.advance(Until::Time(span), u64::MAX);
+    let mut costs = Vec::new();
+    for _ in 0..rounds {
+        let (start, from) = (cpu_seconds(), run.time());
+        run.advance(Until::Time(from + span), u64::MAX);
+        costs.push((cpu_seconds() - start) / (run.time() - from));
+    }
+    costs.sort_by(f64::total_cmp);
+    (costs[0], costs[rounds - 1])
 }
 
 /// Goes on for so many impacts (pairs and walls); how many events that took: impacts, crossings, stale plans.

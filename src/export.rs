@@ -8,6 +8,10 @@ use serde::Serialize;
 
 use crate::physics::{Class, Contact, Kind, State};
 
+mod trade;
+
+pub use trade::{TradeRow, read_trade};
+
 /// How rows are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {

@@ -10,6 +10,7 @@ pub mod cli;
 pub mod export;
 pub mod frame;
 pub mod geometry;
+pub mod measure;
 pub mod physics;
 pub mod roots;
 pub mod scene;

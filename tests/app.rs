@@ -287,7 +287,7 @@ fn a_scene_file_is_reloaded_and_one_that_breaks_leaves_the_run_alive() {
     assert_eq!((user.snapshot().t, user.snapshot().stage.key.as_str()), (1.0, "mine"));
     write("-1");
     user.type_in("R");
-    assert!(user.row(-1).contains("mine.ron"), "{}", user.row(-1));
+    assert!(user.text().contains("mine.ron"), "{}", user.text());
     assert_eq!(user.snapshot().t, 1.0);
     write("0.25");
     user.type_in("R");
@@ -308,14 +308,63 @@ fn a_run_that_cannot_go_on_says_so_once_and_again_when_asked() {
     assert!(user.snapshot().t < 20.0);
     let reason = user.snapshot().stall.clone().expect("it has a reason");
     let start: String = reason.chars().take(30).collect();
-    assert!(user.row(-1).contains(&start), "{}", user.row(-1));
+    assert!(user.row(2).contains(&start), "{}", user.text());
+    assert!(user.row(-1).contains("m changes the method"), "{}", user.row(-1));
     user.type_in("v");
-    assert!(!user.row(-1).contains(&start), "{}", user.row(-1));
+    assert!(!user.row(-1).contains("m changes the method"), "{}", user.row(-1));
     user.type_in(" ");
-    assert!(user.row(-1).contains(&start), "{}", user.row(-1));
+    assert!(user.row(-1).contains("m changes the method"), "{}", user.row(-1));
     user.type_in("r");
     assert_eq!((user.app.report().activity, user.snapshot().t), (Activity::Paused, 0.0));
     assert_eq!(user.snapshot().stall, None);
+}
+
+#[test]
+fn the_ghost_shows_how_far_paper_is_off_and_that_exact_is_not() {
+    let mut user = User::with("paper-0");
+    user.type_in(":dt 0.1\n:goto 1\nx");
+    // Free fall from rest by Euler's rule is g t dt / 2 too low after t, here 9.8 · 1 · 0.1 / 2 m (to rounding of the sum).
+    let t = user.snapshot().t;
+    let ghost = user.app.ghost().expect("it has been compared").clone();
+    assert_eq!(ghost.t, t);
+    assert!((ghost.deviations[0] - 0.5 * 9.8 * t * 0.1).abs() < 1e-12, "{ghost:?}");
+    assert!(user.text().contains("exact run  t"), "{}", user.text());
+    user.type_in("r:dt 0.1\nmm:goto 1\n");
+    assert_eq!(user.snapshot().method, "exact");
+    let ghost = user.app.ghost().expect("it has been compared");
+    assert_eq!((ghost.deviations[0], ghost.energy_error), (0.0, 0.0));
+    user.type_in("]");
+    assert_eq!(user.app.ghost().map(|ghost| ghost.t), Some(0.0), "another scene is compared from its start");
+    user.type_in("x");
+    assert_eq!(user.app.ghost(), None);
+    assert!(!user.text().contains("exact run  t"), "{}", user.text());
+}
+
+#[test]
+fn past_its_horizon_a_scene_says_so() {
+    let mut user = User::with("paper-3");
+    user.type_in("x:goto 12\n");
+    // The horizon is looked for when there is nothing else to do; it lies between 7 and 11 s.
+    user.until("past the horizon", |app| app.ghost().is_some_and(carom::snapshot::Ghost::is_past_horizon));
+    assert!(user.text().contains("positions mean nothing"), "{}", user.text());
+}
+
+#[test]
+fn a_message_takes_the_rows_it_needs_and_what_is_hardly_meant_is_said_at_once() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("fast.ron");
+    let fast = "Scene(spheres: [Sphere(x: (0, 0, 0), v: (1e3, 0, 0), mass: 1, radius: 0.5)])";
+    std::fs::write(&path, fast).expect("writable");
+    let mut user = User::with(&path.to_string_lossy());
+    assert!(user.text().contains("Note: sphere 0 is so fast"), "{}", user.text());
+    assert!(user.row(-1).trim_end().ends_with("lower dt."), "its end is on the last row: {}", user.text());
+    user.type_in("v");
+    assert!(!user.text().contains("so fast"), "{}", user.text());
+    std::fs::write(&path, "Scene(\n  sphere: []\n)").expect("writable");
+    user.type_in("R");
+    let said: String = user.text().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("2:3: unknown field") || said.contains("sphere"), "{}", user.text());
+    assert!(said.contains("`spheres`"), "what is allowed is seen too: {}", user.text());
 }
 
 #[test]
@@ -387,4 +436,26 @@ fn a_worker_that_waits_sends_no_news() {
     }
     let silence = Duration::from_millis(300); // longer than eighteen reports of a running run
     assert_eq!(news.recv_timeout(silence), Err(mpsc::RecvTimeoutError::Timeout));
+}
+
+#[test]
+fn the_search_for_a_collision_ends_one_duration_later_where_none_comes() {
+    let mut user = User::with("paper-0");
+    user.type_in(":goto 15\n"); // its last impact is at 12 s, its duration 20 s
+    let (t, impacts) = (user.snapshot().t, user.snapshot().tallies.impacts);
+    user.type_in("c");
+    // the first frame that ends after that, of dt = 0.01 s
+    assert!((20.0..20.02).contains(&(user.snapshot().t - t)), "{t} s, {} s", user.snapshot().t);
+    assert_eq!(user.snapshot().tallies.impacts, impacts);
+}
+
+#[test]
+fn escape_stops_on_the_way_to_a_time() {
+    let mut user = User::with("box-gas");
+    user.type_in(":goto 1e9");
+    let _ = user.app.handle(Input::Key(Key::plain(Code::Enter)));
+    user.until("under way", |app| app.report().snapshot.t > 0.0);
+    user.type_in("\x1b");
+    assert!(user.snapshot().t < 1e9);
+    assert!(user.row(0).contains("PAUSE"), "{}", user.row(0));
 }

@@ -5,95 +5,23 @@
 
 #[path = "support/random.rs"]
 mod random;
+#[path = "campaign/scenes.rs"]
+mod scenes;
 mod support;
 
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use random::Random;
+use scenes::random_scene;
 
 use carom::physics::contact_time::{Part, touch};
-use carom::physics::{Class, Kind, Method, Model, Progress, Scene, Settings, Simulation, State, Until};
-use carom::scene::{ContactLaw, Sphere, Wall};
-use glam::{DVec3, dvec3};
-use support::{room, scene, wall};
+use carom::physics::{Class, Kind, Method, Model, Progress, Settings, Simulation, State, Until};
+use glam::dvec3;
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
 
-fn law(random: &mut Random) -> ContactLaw {
-    let mut restitution = || match random.pick(&[0, 1, 2, 2, 2, 3]) {
-        0 => 0.0,
-        1 => 1.0,
-        2 => random.unit(),
-        _ => random.between(0.0, 0.1),
-    };
-    let (restitution, wall_restitution) = (restitution(), restitution());
-    let tangential = random.pick(&[1.0, 0.99, 0.5]);
-    ContactLaw { restitution, wall_restitution, tangential, rest_speed: random.pick(&[0.0, 0.1, 0.1]) }
-}
-
-/// Free-standing walls: anything, or a V to roll into.
-fn obstacles(random: &mut Random) -> Vec<Wall> {
-    match random.pick(&[0, 1, 1, 2, 2, 3]) {
-        0 => vec![],
-        1 => (0..=(3.0 * random.unit()) as usize)
-            .map(|_| {
-                let center = dvec3(random.between(-4.0, 4.0), random.between(1.0, 8.0), random.between(-4.0, 4.0));
-                let s1 = random.vector().normalize_or(DVec3::X) * random.between(0.5, 6.0);
-                let s2 = random.vector().normalize_or(DVec3::Z).cross(s1).normalize_or(DVec3::Y);
-                wall(center, s1, (s2 + s1 * random.between(-0.1, 0.1)) * random.between(0.5, 4.0))
-            })
-            .collect(),
-        2 => {
-            let (a, b) = (random.between(0.2, 1.5), random.between(0.2, 1.5));
-            let along = dvec3(0.0, random.pick(&[0.0, 0.0, 0.3]), 6.0);
-            vec![
-                wall(dvec3(-1.5, 2.0 + 1.5 * a, 0.0), along, dvec3(-3.0, 3.0 * a, 0.0)),
-                wall(dvec3(1.5, 2.0 + 1.5 * b, 0.0), along, dvec3(3.0, 3.0 * b, 0.0)),
-            ]
-        }
-        _ => {
-            // a bench: flat or tilted, with edges to fall from
-            let tilt = random.pick(&[0.0, 0.0, 0.1, 0.3]);
-            vec![wall(dvec3(0.0, 3.0, 0.0), dvec3(random.between(1.0, 4.0), tilt, 0.0), dvec3(0.0, 0.0, -2.0))]
-        }
-    }
-}
-
-fn random_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ 0x1405_7b7e_f767_814f);
-    let mut walls = room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 10.0, 5.0));
-    walls.extend(obstacles(random));
-    let gravity = match random.pick(&[0, 1, 1, 1, 1, 2]) {
-        0 => DVec3::ZERO,
-        1 => dvec3(0.0, -9.8, 0.0),
-        _ => random.vector() * 9.8,
-    };
-    let law = law(random);
-    let model = Model::new(&scene(gravity, law, walls.clone(), vec![]));
-    let mut spheres: Vec<Sphere> = Vec::new();
-    let (count, in_line) = (1 + (6.0 * random.unit()) as usize, random.unit() < 0.15);
-    let speed = random.pick(&[0.0, 1.0, 5.0, 17.0]);
-    for _ in 0..1000 {
-        let radius = if in_line { 0.3 } else { random.between(0.2, 0.6) };
-        let mut x = dvec3(random.between(-4.4, 4.4), random.between(0.6, 9.4), random.between(-4.4, 4.4));
-        let mut v = random.vector() * speed;
-        if in_line {
-            // on one line: cradles and collapses
-            (x.y, x.z, v) = (3.5, 0.0, dvec3(v.x, 0.0, 0.0));
-        }
-        let free = model.faces.iter().all(|face| touch(face, x, radius).gap > 0.0)
-            && spheres.iter().all(|s| (s.x - x).length() > s.radius + radius);
-        if free {
-            let mass = if in_line { 1.0 } else { random.pick(&[1.0, 1.0, 0.1, 10.0, 3.7]) };
-            let force = if random.unit() < 0.1 { random.vector() } else { DVec3::ZERO };
-            spheres.push(Sphere { x, v, mass, radius, force, color: None, name: None });
-        }
-        if spheres.len() == count {
-            break;
-        }
-    }
-    scene(gravity, law, walls, spheres)
-}
+/// Thousands of turns of the method's loop after which a scene of 10 s counts as hanging.
+const BUDGET: u64 = 5000;
 
 /// How often each thing was met.
 #[derive(Default, Debug)]
@@ -111,6 +39,8 @@ struct Met {
     collapses: u64,
     curved: u64,
     curved_time: f64,
+    /// Thousands of turns of the method's loop.
+    work: u64,
     deepest: f64,
     gain: f64,
 }
@@ -139,6 +69,7 @@ fn size(model: &Model, state: &State) -> f64 {
     (0..model.len()).map(of).sum()
 }
 
+/// Runs one scene for 10 s and holds it against every oracle; also says how many thousand turns of work it took.
 fn check(seed: u64, met: &mut Met) -> Result<(), String> {
     let scene = random_scene(seed);
     let mut run = Simulation::new(&scene, EXACT);
@@ -148,10 +79,16 @@ fn check(seed: u64, met: &mut Met) -> Result<(), String> {
     let mut least = run.initial_energy();
     for frame in 0..20 {
         let until = 0.5 * f64::from(frame + 1);
-        match run.advance(Until::Time(until), 2_000_000) {
-            Progress::Reached => {}
-            Progress::Yielded => return fail(&run, format!("hangs: {:?}", run.tallies())),
-            Progress::Stalled(stall) => return fail(&run, format!("stalls: {}", stall.reason)),
+        loop {
+            met.work += 1;
+            if met.work > BUDGET {
+                return fail(&run, format!("hangs: {:?}", run.tallies()));
+            }
+            match run.advance(Until::Time(until), 1000) {
+                Progress::Reached => break,
+                Progress::Yielded => {}
+                Progress::Stalled(stall) => return fail(&run, format!("stalls: {}", stall.reason)),
+            }
         }
         let state = run.at(until);
         let (model, deep) = (run.model(), depth(run.model(), &state));
@@ -171,49 +108,110 @@ fn check(seed: u64, met: &mut Met) -> Result<(), String> {
         met.gain = met.gain.max(gain);
         // an impact changes the energy by some ulp; 1e-12 is a thousand of them
         if gain > 1e-12 {
-            return fail(&run, format!("energy rose from {least} to {energy}"));
+            return fail(&run, format!("energy rose by {gain:e} from {least} to {energy}"));
         }
         least = least.min(energy);
     }
-    let events = run.take_events();
-    let mut resting: BTreeSet<(Kind, usize, usize)> = BTreeSet::new();
-    for event in &events {
-        let part = (event.kind == Kind::Wall).then(|| {
-            let x = event.point + event.normal * run.model().radii[event.a];
-            touch(&run.model().faces[event.b], x, run.model().radii[event.a]).part
-        });
-        match event.class {
-            Class::Collide => {
-                met.impacts += 1;
-                match part {
-                    Some(Part::Face) => met.faces += 1,
-                    Some(Part::Edge(_)) => met.edges += 1,
-                    Some(Part::Corner(_)) => met.corners += 1,
-                    None => met.pairs += 1,
-                }
-            }
-            Class::Rest => {
-                met.rests += 1;
-                resting.insert(event.key());
-                let walls = resting.iter().filter(|key| key.0 == Kind::Wall && key.1 == event.a).count();
-                match part {
-                    None => met.pair_rests += 1,
-                    Some(Part::Face) if walls >= 2 => met.creases += 1,
-                    Some(Part::Face) => {}
-                    Some(_) => met.edge_rests += 1,
-                }
-            }
-            Class::Release => {
-                met.releases += 1;
-                resting.remove(&event.key());
-            }
-            Class::Leave => {}
-        }
-    }
-    met.collapses += run.tallies().collapses;
-    met.curved += u64::from(run.tallies().inexact_time > 0.0);
-    met.curved_time += run.tallies().inexact_time;
+    met.count(&mut run);
     Ok(())
+}
+
+impl Met {
+    /// Counts what a run met.
+    fn count(&mut self, run: &mut Simulation) {
+        let mut resting: BTreeSet<(Kind, usize, usize)> = BTreeSet::new();
+        for event in &run.take_events() {
+            let part = (event.kind == Kind::Wall).then(|| {
+                let x = event.point + event.normal * run.model().radii[event.a];
+                touch(&run.model().faces[event.b], x, run.model().radii[event.a]).part
+            });
+            match event.class {
+                Class::Collide => {
+                    self.impacts += 1;
+                    match part {
+                        Some(Part::Face) => self.faces += 1,
+                        Some(Part::Edge(_)) => self.edges += 1,
+                        Some(Part::Corner(_)) => self.corners += 1,
+                        None => self.pairs += 1,
+                    }
+                }
+                Class::Rest => {
+                    self.rests += 1;
+                    resting.insert(event.key());
+                    let walls = resting.iter().filter(|key| key.0 == Kind::Wall && key.1 == event.a).count();
+                    match part {
+                        None => self.pair_rests += 1,
+                        Some(Part::Face) if walls >= 2 => self.creases += 1,
+                        Some(Part::Face) => {}
+                        Some(_) => self.edge_rests += 1,
+                    }
+                }
+                Class::Release => {
+                    self.releases += 1;
+                    resting.remove(&event.key());
+                }
+                Class::Leave => {}
+            }
+        }
+        self.collapses += run.tallies().collapses;
+        self.curved += u64::from(run.tallies().inexact_time > 0.0);
+        self.curved_time += run.tallies().inexact_time;
+    }
+
+    /// Adds what another run met.
+    fn add(&mut self, other: &Met) {
+        let Met { impacts, faces, edges, corners, pairs, rests, creases, pair_rests, edge_rests, .. } = *other;
+        self.impacts += impacts;
+        self.faces += faces;
+        self.edges += edges;
+        self.corners += corners;
+        self.pairs += pairs;
+        self.rests += rests;
+        self.creases += creases;
+        self.pair_rests += pair_rests;
+        self.edge_rests += edge_rests;
+        self.releases += other.releases;
+        self.collapses += other.collapses;
+        self.curved += other.curved;
+        self.curved_time += other.curved_time;
+        self.work += other.work;
+        self.deepest = self.deepest.max(other.deepest);
+        self.gain = self.gain.max(other.gain);
+    }
+}
+
+/// Runs these seeds on all cores, telling failures as they come; what all met, and the failures, in the order of seeds.
+fn sweep(seeds: &[u64]) -> (Met, Vec<String>) {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some(&seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let mut met = Met::default();
+            let failure = check(seed, &mut met).err();
+            if let Some(failure) = &failure {
+                tell(failure);
+            }
+            done.push((seed, met, failure));
+        }
+        done
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut done = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().expect("no scene panics")).collect::<Vec<_>>()
+    });
+    done.sort_unstable_by_key(|&(seed, ..)| seed);
+    let mut total = Met::default();
+    done.iter().for_each(|(_, met, _)| total.add(met));
+    if let Some((seed, met, _)) = done.iter().max_by_key(|(_, met, _)| met.work) {
+        tell(&format!("most work: {} thousand turns for seed {seed}", met.work));
+    }
+    (total, done.into_iter().filter_map(|(.., failure)| failure).collect())
+}
+
+#[expect(clippy::print_stdout, reason = "a campaign tells what it met")]
+fn tell(what: &str) {
+    println!("{what}");
 }
 
 fn number(name: &str, otherwise: u64) -> u64 {
@@ -223,12 +221,8 @@ fn number(name: &str, otherwise: u64) -> u64 {
 #[test]
 fn random_scenes_neither_hang_nor_escape_nor_gain_energy_nor_go_deep() {
     let (from, count) = (number("CAROM_CAMPAIGN_FROM", 0), number("CAROM_CAMPAIGN", 40));
-    let mut met = Met::default();
-    let failures: Vec<String> = (from..from + count).filter_map(|seed| check(seed, &mut met).err()).collect();
-    #[expect(clippy::print_stdout, reason = "a campaign tells what it met")]
-    {
-        println!("{count} scenes: {met:#?}");
-    }
+    let (met, failures) = sweep(&(from..from + count).collect::<Vec<_>>());
+    tell(&format!("{count} scenes: {met:#?}"));
     let shown = failures[..failures.len().min(20)].join("\n");
     assert!(failures.is_empty(), "{} of {count} scenes failed:\n{shown}", failures.len());
     if count >= 20_000 {

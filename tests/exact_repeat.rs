@@ -1,10 +1,13 @@
 //! What the event-driven method keeps: bits however it is sliced and watched, the way back, symmetry, what is conserved.
 
+#[path = "support/sums.rs"]
+mod sums;
 mod support;
 
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use proptest::prelude::*;
+use sums::Sum;
 use support::{ELASTIC, gas, paper_scene, run_to};
 
 fn exact(dt: f64) -> Settings {
@@ -23,7 +26,7 @@ fn whole(scene: &Scene, until: f64, dt: f64) -> State {
 }
 
 /// Scenes that fly, rest, slide, stick and crowd, and how long they are run, s.
-const SCENES: [(&str, f64); 9] = [
+const SCENES: [(&str, f64); 10] = [
     ("paper-0", 14.0),
     ("paper-1", 16.0),
     ("paper-2", 18.0),
@@ -33,6 +36,7 @@ const SCENES: [(&str, f64); 9] = [
     ("corner", 10.0),
     ("newtons-cradle", 20.0),
     ("galton", 3.0),
+    ("zigzag", 15.0),
 ];
 
 #[test]
@@ -133,9 +137,11 @@ fn elastic_runs_go_back_the_way_they_came() {
     for (k, tolerance) in [(0, 1e-12), (2, 1e-11)] {
         let scene = Scene { contact: ELASTIC, ..paper_scene(k) };
         let there = whole(&scene, 10.0, 0.1);
-        let back = whole(&reversed(&scene, &there), 10.0, 0.1);
-        for (i, body) in scene.spheres.iter().enumerate() {
-            let error = back.x[i].distance(body.x).max(back.v[i].distance(-body.v));
+        // A millisecond short of the start, where some touch a wall: the impact on it may be due or not, by rounding.
+        let back = whole(&reversed(&scene, &there), 9.999, 0.1);
+        let start = whole(&scene, 0.001, 0.1);
+        for i in 0..scene.spheres.len() {
+            let error = back.x[i].distance(start.x[i]).max(back.v[i].distance(-start.v[i]));
             assert!(error <= tolerance, "paper-{k}, sphere {i}: returns {error:e} m or m/s off");
         }
         let run = Simulation::new(&scene, exact(1.0));
@@ -163,24 +169,6 @@ fn the_mirror_symmetric_scene_stays_so_for_five_seconds() {
     assert_eq!(impacts.iter().filter(|&&t| t <= 7.0).count(), 37);
 }
 
-/// A sum that loses nothing: Neumaier's.
-#[derive(Default)]
-struct Sum {
-    total: DVec3,
-    rest: DVec3,
-}
-
-impl Sum {
-    fn add(&mut self, term: DVec3) {
-        for axis in 0..3 {
-            let (total, term) = (self.total[axis], term[axis]);
-            let next = total + term;
-            self.rest[axis] += if total.abs() >= term.abs() { total - next + term } else { term - next + total };
-            self.total[axis] = next;
-        }
-    }
-}
-
 /// Runs an elastic scene until so many impacts: relative errors of the energy, and of the momentum less what the walls
 /// gave, by Σ m |v|.
 fn drifts(scene: &Scene, impacts: u64) -> (f64, f64) {
@@ -197,16 +185,33 @@ fn drifts(scene: &Scene, impacts: u64) -> (f64, f64) {
     let energy = (state.energy(model) / run.initial_energy() - 1.0).abs();
     let pulled: DVec3 = scene.spheres.iter().map(|s| (scene.gravity * s.mass + s.force) * state.t).sum();
     let scale: f64 = state.v.iter().zip(&model.masses).map(|(v, m)| v.length() * m).sum();
-    let left = state.momentum(model) - before.momentum(model) - pulled - walls.total - walls.rest;
+    let left = state.momentum(model) - before.momentum(model) - pulled - walls.value();
     (energy, left.length() / scale)
 }
 
 #[test]
 fn an_elastic_gas_keeps_energy_and_momentum_over_hundreds_of_thousands_of_impacts() {
-    // Demanded. Rounding at random would leave less: √300 000 impacts of an ulp, spread over a thousand spheres, are
-    // 1e-16. Energy comes near the bound: it drifts in proportion to the impacts.
+    // Demanded. Rounding at random leaves less: √300 000 impacts of an ulp, spread over a thousand spheres, are 1e-16;
+    // the sums round more. Ten million: `long`.
     let (energy, momentum) = drifts(&gas(1000, 5, 1.0), 300_000);
     assert!(energy <= 1e-14 && momentum <= 1e-14, "energy off by {energy:e}, momentum by {momentum:e}");
+}
+
+#[test]
+fn a_gas_in_a_tilted_box_keeps_energy_and_momentum_though_its_normals_are_rounded() {
+    let mut scene = gas(27, 7, 1.0);
+    let turn = DQuat::from_axis_angle(DVec3::new(2.0, 3.0, 6.0) / 7.0, 1.0);
+    for wall in &mut scene.walls {
+        let shape = &mut wall.shape;
+        (shape.center, shape.s1, shape.s2) = (turn * shape.center, turn * shape.s1, turn * shape.s2);
+    }
+    for body in &mut scene.spheres {
+        (body.x, body.v) = (turn * body.x, turn * body.v);
+    }
+    let (energy, momentum) = drifts(&scene, 100_000);
+    // A normal's square is off by up to an ulp, and by the same in every impact: 4000 of them a sphere would leave 1e-12.
+    // That is taken back but for what is under half an ulp of the change, a tenth of an ulp on average: 1e-13.
+    assert!(energy <= 1e-13 && momentum <= 1e-14, "energy off by {energy:e}, momentum by {momentum:e}");
 }
 
 #[test]

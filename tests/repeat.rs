@@ -2,7 +2,8 @@
 
 mod support;
 
-use carom::physics::{Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::measure::verify::{Depth, GOLDEN, Golden, Lab};
+use carom::physics::{Progress, Scene, Settings, Simulation, State, Until};
 use proptest::{prelude::*, test_runner::RngSeed};
 use support::{gas, paper, paper_scene, run_to};
 
@@ -153,35 +154,16 @@ fn thousands_of_spheres_are_sliced_within_a_trial_step_too() {
     assert_eq!(sliced.tallies(), whole.tallies());
 }
 
-/// Hashes of the state at the end of a run: scene, until (s), by `exact`, by `paper` in frames of 0.01 s.
-///
-/// Whatever a change of the arithmetic alters on purpose is to be entered anew from the failure's message; what must
-/// never differ is this between machines and optimisation levels, all of which compare with the same literals.
-const GOLDEN: [(&str, f64, u64, u64); 8] = [
-    ("paper-0", 12.0, 0x527cf638f1094ce1, 0x1bd190d4d0ebd010),
-    ("paper-1", 8.0, 0xd2e74081c9f9e226, 0xdd7d795d15911912),
-    ("paper-2", 10.0, 0x531f07c3b811bbb3, 0x008eeb07a92d2862),
-    ("paper-3", 8.0, 0x03995f048bf63418, 0x971ee35912911934),
-    ("paper-4", 5.0, 0x374004480e69c939, 0x6b2e8fda467cfcfd),
-    ("zeno", 10.0, 0x82fb254f7e1943ac, 0xb8af2fe4bdf32a64),
-    ("corner", 5.0, 0x3eec042be14d8c25, 0x7c76e6a0e19ddf14),
-    ("newtons-cradle", 20.0, 0xb11436696990f1fd, 0x96ddd5673680961a),
-];
-
 #[test]
 fn every_build_makes_these_bits() {
-    let mut found = Vec::new();
-    for (name, until, ..) in GOLDEN {
-        let scene = carom::scene::open(name).expect("a built-in scene").scene;
-        let end = |settings: Settings| {
-            let mut run = Simulation::new(&scene, settings);
-            assert_eq!(run_to(&mut run, until, u64::MAX), None, "{name}");
-            run.at(until).hash()
-        };
-        let by_frames = end(paper(0.01, 1e-3));
-        found.push((name, until, end(Settings { method: Method::Exact, ..paper(0.01, 1e-3) }), by_frames));
-    }
-    let list: Vec<_> = found.iter().map(|(n, t, e, p)| format!("    ({n:?}, {t:?}, {e:#018x}, {p:#018x}),")).collect();
+    let lab = Lab::new(Depth::Quick, &|| true);
+    let found = GOLDEN.iter().map(|run| Golden { hash: run.found(&lab).expect("a run that ends"), ..*run });
+    let found: Vec<Golden> = found.collect();
+    let line = |run: &Golden| {
+        let Golden { scene, until, method, hash } = run;
+        format!("    golden({scene:?}, {until:?}, Method::{method:?}, {hash:#018x}),")
+    };
+    let list: Vec<String> = found.iter().map(line).collect();
     assert!(found == GOLDEN, "this build makes\n{}\ninstead of\n{GOLDEN:x?}", list.join("\n"));
 }
 

@@ -48,7 +48,7 @@ fn every_shipped_scene_opens_says_what_to_look_at_and_earns_no_warning() {
         let scene = opened.scene;
         assert!(!scene.about.is_empty() && !scene.name.is_empty(), "{} says nothing of itself", builtin.name);
         assert!(scene.about.chars().count() <= 100, "{}: its line is too long for a list", builtin.name);
-        assert_eq!(scene::warnings(&scene), Vec::<String>::new(), "{}", builtin.name);
+        assert_eq!(scene::warnings(&scene, scene.solver), Vec::<String>::new(), "{}", builtin.name);
         assert!(scene.spheres.iter().any(|sphere| sphere.color.is_some()), "{} is grey", builtin.name);
     }
 }
@@ -221,7 +221,8 @@ fn numbers_may_be_written_as_integers_and_optional_fields_without_some() {
 #[test]
 fn what_is_allowed_but_hardly_meant_is_warned_of() {
     let warned = |text: &str, about: &str| {
-        let warnings = scene::warnings(&parsed(text).expect("it is allowed"));
+        let scene = parsed(text).expect("it is allowed");
+        let warnings = scene::warnings(&scene, scene.solver);
         assert!(warnings.iter().any(|warning| warning.contains(about)), "{text}: {warnings:?}");
     };
     let ball = "Sphere(x: (0, 1, 0), mass: 1, radius: 0.5)";
@@ -241,6 +242,7 @@ fn what_is_allowed_but_hardly_meant_is_warned_of() {
         "outside the box of all walls",
     );
     warned("Scene(spheres: [Sphere(x: (0, 0, 0), v: (1e3, 0, 0), mass: 1, radius: 0.5)])", "lower dt");
+    warned("Scene(solver: (dt: 1e-300))", "raise dt");
     warned("Scene(spheres: [Sphere(x: (1e9, 0, 0), mass: 1, radius: 1e-3)])", "rounding");
 }
 

@@ -16,6 +16,8 @@ use ratatui::{
     style::Color,
 };
 
+#[path = "screens/comparison.rs"]
+mod comparison;
 #[path = "support/stages.rs"]
 mod stages;
 
@@ -88,6 +90,11 @@ fn a_pile_with_every_overlay_looks_as_stored() {
 #[test]
 fn a_stalled_run_looks_as_stored() {
     store("stalled", &stages::stalled().screen());
+}
+
+#[test]
+fn a_run_beside_the_exact_one_looks_as_stored() {
+    store("strayed", &stages::strayed().screen());
 }
 
 #[test]
@@ -282,7 +289,7 @@ fn look() -> impl Strategy<Value = Look> {
     let views = prop_oneof![Just(Views::Both), Just(Views::Side), Just(Views::Top)];
     let marker = prop_oneof![Just(Marker::Braille), Just(Marker::Block), Just(Marker::Ascii)];
     let colors = prop_oneof![Just(Colors::Never), Just(Colors::Ansi16), Just(Colors::Ansi256), Just(Colors::Rgb)];
-    let flags = proptest::collection::vec(any::<bool>(), 6);
+    let flags = proptest::collection::vec(any::<bool>(), 7);
     (views, zoom, [number.clone(), number.clone(), number], flags, proptest::option::of(0_usize..5), marker, colors)
         .prop_map(|(views, zoom, pan, flags, selected, marker, colors)| Look {
             views,
@@ -292,6 +299,7 @@ fn look() -> impl Strategy<Value = Look> {
             selected,
             overlays: Overlays { contacts: flags[1], normals: flags[2], velocities: flags[3], ids: flags[4] },
             inspector: flags[5],
+            ghost: flags[6],
             marker,
             colors,
         })
@@ -303,6 +311,7 @@ proptest! {
     #[test]
     fn any_look_at_any_scene_is_drawn_within_any_size(look in look(), seed in 0_usize..12, width in 0_u16..=200, height in 0_u16..=60) {
         let mut scene = if seed < 9 { hostile(seed) } else { stages::pile() };
+        scene.beside = stages::strayed().beside;
         scene.look = look;
         assert_stays_within(&scene.screen(), width, height);
         let span = view::visible_span(&scene.look, &scene.snapshot.stage, Rect::new(0, 0, width, height));

@@ -5,21 +5,24 @@ use std::sync::Arc;
 use super::{
     App, Current, Effect, Open,
     action::{Action, Direction},
+    comparison::Comparison,
     keys::{self, Code, Key},
-    knobs, look, name_of, pairs,
+    knobs, look, pairs,
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
 };
 use crate::{
     physics::Settings,
     scene::{self, Opened},
-    snapshot::Stage,
     view,
-    worker::{Activity, Command, Job},
+    worker::{Activity, Command},
 };
 
 /// Longest text the prompt takes; more than any order needs.
 const PROMPT: usize = 200;
+
+/// What to do where a run cannot go on; why it cannot is on the screen already.
+pub(super) const STALLED: &str = "The run cannot go on from here: m changes the method, r restarts.";
 
 impl App {
     pub(super) fn key(&mut self, key: Key) -> Effect {
@@ -96,6 +99,7 @@ impl App {
             Action::Faster => self.go_at(knobs::speed(self.speed, 2.0)),
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
+            Action::Ghost => self.toggle_ghost(),
             Action::Prompt => self.open = Open::Prompt(String::new()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
@@ -154,7 +158,7 @@ impl App {
     fn say_if_stalled(&mut self) -> bool {
         let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
         if stalled {
-            self.message.clone_from(&self.report.snapshot.stall);
+            self.say(STALLED);
         }
         stalled
     }
@@ -195,15 +199,44 @@ impl App {
 
     /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
     fn load(&mut self, opened: Opened, settings: Settings) {
-        let Opened { key, path, scene } = opened;
         let running = self.running;
-        self.current = Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene) };
+        self.current = Current::of(opened);
         self.settings = settings;
-        let stage = Arc::new(Stage::of(&key, &self.current.scene));
-        self.worker.send(Command::Load(Job { stage, scene: Arc::clone(&self.current.scene), settings }));
+        self.worker.send(Command::Load(self.current.job(settings)));
         self.run(running);
         look::whole_scene(&mut self.look);
         self.look.selected = None;
+        self.warn();
+        if self.comparison.is_some() {
+            self.compare();
+        }
+    }
+
+    fn toggle_ghost(&mut self) {
+        match self.comparison.take() {
+            Some(_) => self.say("The exact run is no longer shown."),
+            None => {
+                self.say("Dotted: where the exact run is now.");
+                self.compare();
+            }
+        }
+        self.look.ghost = self.comparison.is_some();
+    }
+
+    /// Starts the exact run beside this one.
+    fn compare(&mut self) {
+        match Comparison::start(&self.current, &self.report, Arc::clone(&self.notify)) {
+            Ok(comparison) => self.comparison = Some(comparison),
+            Err(error) => self.say(format!("The exact run cannot start: {error}.")),
+        }
+    }
+
+    /// Says what of the scene is allowed but hardly meant.
+    pub(super) fn warn(&mut self) {
+        let warnings = scene::warnings(&self.current.scene, self.settings);
+        if !warnings.is_empty() {
+            self.say(format!("Note: {}.", warnings.join("; ")));
+        }
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
@@ -313,7 +346,7 @@ impl App {
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
             Ok(Some(Order::Goto(t))) => {
                 self.head_for(Command::Goto(t), true);
-                self.say("On the way; Esc stops.");
+                self.say("On the way to the first frame that ends then or later; Esc stops.");
             }
             #[cfg(debug_assertions)]
             Ok(Some(Order::Panic { simulation: true })) => self.worker.send(Command::Panic),

@@ -55,6 +55,8 @@ pub enum Action {
     Inspector,
     /// The next set of overlays.
     NextOverlays,
+    /// Show where the exact run is now, or stop.
+    Ghost,
     /// Type exact values.
     Prompt,
     /// Show the keys, or hide them.

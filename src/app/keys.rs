@@ -138,6 +138,7 @@ const TABLE: &[Binding] = &[
     bind(&[K::char('i')], Action::Inspector, "inspector"),
     hint(&[K::char('v')], Action::NextViews, "views: both, side, top", "views"),
     bind(&[K::char('d')], Action::NextOverlays, "overlays: contacts, + normals, velocities, ids, all, none"),
+    bind(&[K::char('x')], Action::Ghost, "ghost: where the exact run is now, errors and cost over time"),
     bind(&[K::char('h'), K::shift(Code::Left)], Action::Pan(Direction::Left), "pan (Shift-arrows too)"),
     bind(&[K::char('j'), K::shift(Code::Down)], Action::Pan(Direction::Down), "pan (Shift-arrows too)"),
     bind(&[K::char('k'), K::shift(Code::Up)], Action::Pan(Direction::Up), "pan (Shift-arrows too)"),

@@ -110,6 +110,7 @@ mod tests {
             selected: None,
             overlays: Overlays::default(),
             inspector: false,
+            ghost: false,
             marker: Marker::Ascii,
             colors: Colors::Never,
         }

@@ -2,6 +2,7 @@
 
 mod act;
 mod action;
+mod comparison;
 mod keys;
 mod knobs;
 mod look;
@@ -11,6 +12,7 @@ mod scene_list;
 use std::{path::PathBuf, sync::Arc};
 
 pub use action::{Action, Direction};
+use comparison::Comparison;
 pub use keys::{Binding, Code, Key, action, help_rows, hints, table};
 use ratatui::{
     buffer::Buffer,
@@ -21,7 +23,7 @@ use scene_list::SceneList;
 use crate::{
     physics::{Scene, Settings},
     scene::Opened,
-    snapshot::Stage,
+    snapshot::{Ghost, Stage},
     view::{self, Colors, Look, Marker, Mode, Pace, Popup, Screen},
     worker::{Activity, Command, Job, Notify, Report, Worker},
 };
@@ -89,6 +91,20 @@ struct Current {
     /// Its file, unless it is built in.
     path: Option<PathBuf>,
     scene: Arc<Scene>,
+    /// What its snapshots show as constant.
+    stage: Arc<Stage>,
+}
+
+impl Current {
+    fn of(opened: Opened) -> Current {
+        let Opened { key, path, scene } = opened;
+        let stage = Arc::new(Stage::of(&key, &scene));
+        Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene), stage }
+    }
+
+    fn job(&self, settings: Settings) -> Job {
+        Job { stage: Arc::clone(&self.stage), scene: Arc::clone(&self.scene), settings }
+    }
 }
 
 /// The application.
@@ -104,6 +120,9 @@ pub struct App {
     running: bool,
     /// Whether it runs to a collision or a time, where it stops; Esc stops it before.
     headed: bool,
+    /// The exact run beside it, if it was asked for.
+    comparison: Option<Comparison>,
+    notify: Notify,
     look: Look,
     open: Open,
     message: Option<String>,
@@ -119,11 +138,8 @@ impl App {
     /// # Errors
     /// If the system has no thread for the worker.
     pub fn new(setup: Setup, notify: Notify) -> std::io::Result<App> {
-        let Opened { key, path, scene } = setup.opened;
-        let current = Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene) };
-        let stage = Arc::new(Stage::of(&key, &current.scene));
-        let job = Job { stage, scene: Arc::clone(&current.scene), settings: setup.settings };
-        let worker = Worker::start(job, 1.0, notify)?;
+        let current = Current::of(setup.opened);
+        let worker = Worker::start(current.job(setup.settings), 1.0, Arc::clone(&notify))?;
         let report = worker.take();
         let about = current.scene.about.clone();
         let given = current.path.as_ref().map(|_| scene_list::Entry { name: current.name.clone(), about });
@@ -136,6 +152,8 @@ impl App {
             speed: 1.0,
             running: false,
             headed: false,
+            comparison: None,
+            notify,
             look: first_look(setup.marker, setup.colors),
             open: Open::Nothing,
             message: None,
@@ -143,6 +161,7 @@ impl App {
             help: help_rows(),
             hints: hints(),
         };
+        app.warn();
         if !setup.paused {
             app.run(true);
         }
@@ -179,9 +198,16 @@ impl App {
         &self.report
     }
 
-    /// Whether the run has obeyed every key so far and waits for the next.
+    /// Whether the run has obeyed every key so far and waits for the next, and the exact run beside it likewise.
     pub fn settled(&self) -> bool {
-        self.report.obeyed == self.worker.sent() && self.report.activity != Activity::Running
+        let compared = |comparison: &Comparison| comparison.is_settled(self.report.snapshot.t);
+        let obeyed = self.report.obeyed == self.worker.sent() && self.report.activity != Activity::Running;
+        obeyed && self.comparison.as_ref().is_none_or(compared)
+    }
+
+    /// The exact run beside the one shown, where it was asked for and has said anything yet.
+    pub fn ghost(&self) -> Option<&Ghost> {
+        self.comparison.as_ref().and_then(Comparison::ghost)
     }
 
     /// What the user chose to look at.
@@ -195,12 +221,15 @@ impl App {
         if let Some(said) = &self.report.panic {
             return Effect::Fail(said.clone());
         }
+        if let Some(comparison) = &mut self.comparison {
+            comparison.follow(&before, &self.report);
+        }
         if self.report.obeyed == self.worker.sent() {
             self.running = self.report.activity == Activity::Running;
             self.headed &= self.running;
         }
         if self.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
-            self.message.clone_from(&self.report.snapshot.stall);
+            self.say(act::STALLED);
         }
         if self.report.obeyed == before.obeyed && self.report.activity == before.activity {
             Effect::Draw
@@ -225,6 +254,7 @@ impl App {
             snapshot: &self.report.snapshot,
             pace: pace(&self.report),
             ticks: &self.report.ticks,
+            beside: self.comparison.as_ref().map(Comparison::shown),
             look: &self.look,
             popup: match &self.open {
                 Open::Nothing => Popup::None,

@@ -1,11 +1,14 @@
 //! Every command, option and range, as clap reads and explains them.
 
+use std::path::PathBuf;
+
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 
 use super::numbers;
 use super::output::Target;
+use crate::measure::Shard;
 use crate::physics::{Method, Settings};
 use crate::view::{Colors, Marker};
 
@@ -37,6 +40,10 @@ pub(super) enum Command {
     Run(Run),
     /// Print one frame of the screen
     Render(Render),
+    /// Measure how much accuracy costs how much time
+    Measure(Measure),
+    /// Measure known results of physics and mathematics on this machine
+    Verify(Verify),
     /// Print the completions for a shell
     Completions(Completions),
     /// Print the manual page
@@ -90,7 +97,7 @@ pub(super) struct Run {
     #[arg(long, value_name = "T", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     pub(super) until: Option<f64>,
     /// Time between two states, s [default: only the first and the last state]
-    #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", requires = "states", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) every: Option<f64>,
     /// Write times, positions and velocities; JSON lines if it ends in .jsonl, else CSV; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
@@ -122,6 +129,53 @@ pub(super) struct Render {
     pub(super) display: Display,
 }
 
+const LARGE_SWEEPS: &str = "\
+Large sweeps run in parts, under any scheduler, and are merged:
+  parallel carom measure paper-3 --jobs 1 --shard {}/8 --csv {}.csv ::: 1 2 3 4 5 6 7 8
+  carom measure --merge 1.csv 2.csv 3.csv 4.csv 5.csv 6.csv 7.csv 8.csv --svg trade.svg
+docs/measure.md tells what each figure means, and has a Slurm array script.";
+
+#[derive(Debug, Args)]
+#[command(after_help = LARGE_SWEEPS)]
+pub(super) struct Measure {
+    /// Scene files or built-in names
+    #[arg(required_unless_present = "merge", value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub(super) scenes: Vec<String>,
+    /// Methods that compete [default: all, and exact as the yardstick alone]
+    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = method())]
+    pub(super) methods: Vec<Method>,
+    /// Longest steps, s [default: 1e-1,1e-2,1e-3,1e-4]
+    #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) dt: Vec<f64>,
+    /// Intersection tolerances, degrees [default: 1e-2,1e-4,1e-6,1e-8,1e-10,1e-12]
+    #[arg(long, value_name = "D,…", value_delimiter = ',', value_parser = numbers::not_negative,
+          allow_hyphen_values = true)]
+    pub(super) tolerances: Vec<f64>,
+    /// Settings measured side by side [default: the processors there are]
+    #[arg(long, value_name = "N", value_parser = numbers::count)]
+    pub(super) jobs: Option<usize>,
+    /// Write every row as CSV; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    pub(super) csv: Option<Target>,
+    /// Draw the trade as a figure; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    pub(super) svg: Option<Target>,
+    /// Measure only part I of N, I from 1
+    #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
+    pub(super) shard: Option<Shard>,
+    /// Join the CSV files of parts instead of measuring
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs"],
+          value_hint = ValueHint::FilePath)]
+    pub(super) merge: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Verify {
+    /// Some seconds instead of some minutes: fewer digits, fewer spheres
+    #[arg(long)]
+    pub(super) quick: bool,
+}
+
 #[derive(Debug, Args)]
 pub(super) struct Completions {
     /// The shell
@@ -141,9 +195,19 @@ pub(super) struct Solver {
     /// Intersection tolerance, a degree [default: the scene's]
     #[arg(long, value_name = "D", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Choose the cheapest method and setting that meets this position error, m, by a few seconds of trying
+    #[arg(long, value_name = "E", value_parser = numbers::positive, allow_hyphen_values = true,
+          conflicts_with_all = ["dt", "tolerance"])]
+    accuracy: Option<f64>,
 }
 
 impl Solver {
+    /// The position error that is asked for, m, and the methods that may meet it.
+    pub(super) fn accuracy(&self) -> Option<(f64, Vec<Method>)> {
+        let methods = self.method.map_or(Method::ALL.to_vec(), |method| vec![method]);
+        self.accuracy.map(|error| (error, methods))
+    }
+
     /// The scene's settings, but for what the command line says.
     pub(super) fn over(&self, scene: Settings) -> Settings {
         Settings {

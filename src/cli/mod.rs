@@ -7,14 +7,17 @@
 //! | `failure` | how a command can end, its exit code and its one line |
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
+//! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
 
+mod accuracy;
 mod arguments;
 mod check;
 mod completions;
 mod failure;
 mod list;
 mod man;
+mod measure;
 mod methods;
 mod numbers;
 mod output;
@@ -23,6 +26,7 @@ mod render;
 mod run;
 mod show;
 mod signals;
+mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -63,6 +67,8 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
+        Command::Measure(arguments) => measure::measure(arguments, signals),
+        Command::Verify(arguments) => verify::verify(arguments, signals),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

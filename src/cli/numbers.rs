@@ -10,6 +10,11 @@ pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     number(text).filter(|value| value.is_finite() && *value >= 0.0).ok_or("must be a finite number, 0 or more".into())
 }
 
+/// A number of things of which there must be one at least.
+pub(super) fn count(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|count| *count > 0).ok_or("must be a whole number from 1".into())
+}
+
 /// Largest screen that `render` draws, cells: a thousand columns and five hundred rows, some ten megabytes of SVG.
 const LARGEST: (u16, u16) = (1000, 500);
 

@@ -2,11 +2,12 @@
 
 use std::io::{self, IsTerminal};
 
+use super::accuracy;
 use super::arguments::Play;
-use super::failure::Failure;
+use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
-use crate::scene::{self, Opened, Settings, builtin};
+use crate::scene::{self, Opened, builtin};
 use crate::terminal::{self, Options, Outcome};
 use crate::text_mode::{self, Ending};
 
@@ -17,12 +18,13 @@ pub(super) fn play(arguments: &Play) -> Result<(), Failure> {
     }
     let name = arguments.scene.as_deref().unwrap_or(builtin::ALL[0].name);
     let opened = scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
-    let settings = arguments.solver.over(opened.scene.solver);
-    if text { tell(&opened, settings) } else { show(arguments, opened, settings) }
+    if text { tell(arguments, &opened) } else { show(arguments, opened) }
 }
 
-fn tell(opened: &Opened, settings: Settings) -> Result<(), Failure> {
+fn tell(arguments: &Play, opened: &Opened) -> Result<(), Failure> {
     let signals = Signals::watch()?;
+    let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, Some(&signals))?;
+    said.iter().for_each(|said| note(said));
     let mut out = Output::stdout();
     match text_mode::tell(&opened.scene, settings, &mut out, || signals.check().is_ok())? {
         Ending::Done => out.finish(),
@@ -31,10 +33,12 @@ fn tell(opened: &Opened, settings: Settings) -> Result<(), Failure> {
     }
 }
 
-fn show(arguments: &Play, opened: Opened, settings: Settings) -> Result<(), Failure> {
+fn show(arguments: &Play, opened: Opened) -> Result<(), Failure> {
+    let (settings, message) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, None)?;
     let options = Options {
         opened,
         settings,
+        message,
         paused: arguments.paused,
         marker: arguments.display.marker.map(Into::into),
         color: arguments.display.color.depth(),

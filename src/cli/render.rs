@@ -6,8 +6,9 @@ use std::sync::Arc;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::accuracy;
 use super::arguments::{Display, Format, Render};
-use super::failure::Failure;
+use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
 use crate::physics::{Class, Progress, Simulation, Stall, Until};
@@ -21,7 +22,8 @@ const SLICE: u64 = 20_000;
 
 pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failure> {
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
-    let settings = arguments.solver.over(opened.scene.solver);
+    let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, Some(signals))?;
+    said.iter().for_each(|said| note(said));
     let shown = reach(&opened, settings, arguments.at, signals)?;
     let buffer = draw(&shown, &look(&arguments.display), arguments.size);
     let bytes = match arguments.format {
@@ -100,6 +102,7 @@ fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
         snapshot: &shown.snapshot,
         pace: Pace { mode, wanted: 1.0, reached: None },
         ticks: &shown.ticks,
+        beside: None,
         look,
         popup: Popup::None,
         message: None,

@@ -4,12 +4,13 @@ use std::io::{IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::accuracy;
 use super::arguments::Run;
 use super::failure::{Failure, note};
 use super::output::{Output, Target};
 use super::signals::Signals;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
-use crate::physics::{Class, Progress, Simulation, Stall, State, Until};
+use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies, Until};
 use crate::scene;
 
 /// Units of work between two looks at signals and progress: some milliseconds. No bit of a result depends on it.
@@ -21,10 +22,15 @@ const STEPS: f64 = 1000.0;
 pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     refuse_same_target(arguments)?;
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
-    let settings = arguments.solver.over(opened.scene.solver);
+    let until = arguments.until.unwrap_or(opened.scene.duration);
+    let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, until, Some(signals))?;
+    said.iter().for_each(|said| note(said));
+    for warning in scene::warnings(&opened.scene, settings) {
+        note(&format!("{}: {warning}", opened.key));
+    }
     let mut recorder = Recorder {
         simulation: Simulation::new(&opened.scene, settings),
-        until: arguments.until.unwrap_or(opened.scene.duration),
+        until,
         states: table::<StateRow>(arguments.states.as_ref())?,
         events: table::<EventRow>(arguments.events.as_ref())?,
         impacts: 0,
@@ -139,11 +145,23 @@ impl Recorder<'_> {
         } else {
             let _ = writeln!(std::io::stderr(), "{line}"); // if nobody can read it, the exit code still tells
         }
+        unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         stall.map_or(Ok(()), |stall| {
             note(&stall.reason);
             Err(Failure::Told)
         })
     }
+}
+
+/// What must be said of frames whose contacts the solver left unsolved, if there are any.
+fn unsolved(tallies: &Tallies) -> Option<String> {
+    (tallies.unconverged > 0).then(|| {
+        format!(
+            "in {} of {} frames the solver of the contacts did not converge: bodies may overlap there, and the result is \
+             not to be trusted; take a smaller dt or another method",
+            tallies.unconverged, tallies.frames
+        )
+    })
 }
 
 /// 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows (s).

@@ -9,9 +9,12 @@ use glam::DVec3;
 
 pub mod contact;
 pub mod contact_time;
+mod detector;
 mod exact;
+mod knobs;
 mod log;
 pub mod model;
+mod moreau;
 pub mod motion;
 pub mod neighbors;
 pub mod overlap;
@@ -21,8 +24,10 @@ mod requirements;
 mod sealed;
 pub mod state;
 pub mod support;
+mod swept;
 
 pub use contact::{Class, Contact, Kind, Probe};
+pub use knobs::{Effect, Knobs, knobs};
 use log::Log;
 pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
 pub use requirements::Requirements;
@@ -69,7 +74,9 @@ pub struct Description {
 pub fn describe(method: Method) -> &'static Description {
     match method {
         Method::Paper => &paper::DESCRIPTION,
+        Method::Swept => &swept::DESCRIPTION,
         Method::Exact => &exact::DESCRIPTION,
+        Method::Moreau => &moreau::DESCRIPTION,
     }
 }
 
@@ -90,9 +97,9 @@ trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
-    /// Impulses decided at the end of the last frame that act in the next, N s by sphere.
+    /// What the next frame needs beside x and v: impulses that act in it, N s by sphere; by `moreau`, what held.
     fn transient(&self, model: &Model) -> Vec<DVec3>;
-    /// Right after [`Engine::begin`]: with these impulses (N s by sphere) pending instead of its own.
+    /// Right after [`Engine::begin`]: with what [`Engine::transient`] said instead of its own.
     fn continue_with(&mut self, transient: &[DVec3]);
     /// The state for another method to begin with: pending impulses are already in its velocities.
     fn hand_over(&self, model: &Model) -> State;
@@ -103,8 +110,12 @@ trait Engine {
 enum Engines {
     /// The source paper's.
     Paper(paper::Paper),
-    /// Event by event.
-    Exact(exact::Exact),
+    /// Event by event, contact times found by looking.
+    Swept(exact::Exact<swept::Advance>),
+    /// Event by event, contact times by roots.
+    Exact(exact::Exact<exact::Roots>),
+    /// Velocity-level time-stepping.
+    Moreau(moreau::Moreau),
 }
 
 /// Calls the same trait method of whichever engine runs.
@@ -112,7 +123,9 @@ macro_rules! each {
     ($engines:expr, $engine:ident => $call:expr) => {
         match $engines {
             Engines::Paper($engine) => $call,
+            Engines::Swept($engine) => $call,
             Engines::Exact($engine) => $call,
+            Engines::Moreau($engine) => $call,
         }
     };
 }
@@ -121,7 +134,9 @@ impl Engines {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
         match settings.method {
             Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
+            Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
             Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
+            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
         }
     }
 }
@@ -195,8 +210,9 @@ impl Simulation {
         each!(&self.engine, engine => engine.at(&self.model, t))
     }
 
-    /// Impulses decided at the end of the last frame that act in the next, N s by sphere: with t, x and v all that a
-    /// run continues from.
+    /// With t, x and v all that a run continues from: impulses decided at the end of the last frame that act in the
+    /// next, N s by sphere. By `moreau`, as many rows as contacts held in the last frame: sphere, other sphere (or −1
+    /// − wall), impulse in N s.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }

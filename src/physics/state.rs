@@ -59,6 +59,10 @@ pub struct Tallies {
     pub inexact_time: f64,
     /// Inelastic collapses: contacts that `exact` lets rest because they struck a thousand times at one instant.
     pub collapses: u64,
+    /// Rows that `moreau` solved, one at a time: its counted work beside the degree evaluations.
+    pub relaxations: u64,
+    /// Frames whose complementarity problem `moreau`'s solver left unsolved: their contacts must not be trusted.
+    pub unconverged: u64,
 }
 
 /// Why a run cannot go on.

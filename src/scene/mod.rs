@@ -87,19 +87,25 @@ pub struct ContactLaw {
 pub enum Method {
     /// The source paper's: Euler frames, bisection, impulses over the next step.
     Paper,
+    /// Ballistic flight, contacts found by looking ahead, to a tolerance; nothing tunnels.
+    Swept,
     /// Event-driven: parabolas between contacts whose times are computed; no time step.
     Exact,
+    /// Moreau–Jean: all contacts of a frame as one complementarity problem.
+    Moreau,
 }
 
 impl Method {
     /// Every method, in the order in which `m` cycles through them.
-    pub const ALL: &'static [Method] = &[Method::Paper, Method::Exact];
+    pub const ALL: &'static [Method] = &[Method::Paper, Method::Swept, Method::Exact, Method::Moreau];
 
     /// The word used in scene files, options and columns.
     pub const fn name(self) -> &'static str {
         match self {
             Method::Paper => "paper",
+            Method::Swept => "swept",
             Method::Exact => "exact",
+            Method::Moreau => "moreau",
         }
     }
 

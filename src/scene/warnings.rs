@@ -1,17 +1,20 @@
 //! What is allowed in a scene, but probably not meant.
 
 use super::error::show_rounded;
-use super::{Method, Scene, Sphere};
+use super::{Method, Scene, Settings, Sphere};
 use crate::geometry::Bounds;
 
 /// Spacings of the numbers around a coordinate that a radius should hold at least: fewer, and the gap is mostly rounding.
 const RESOLVED: f64 = 1e6;
 
-/// Sentences on what is allowed in the scene, but probably not meant; none for most scenes.
-pub fn warnings(scene: &Scene) -> Vec<String> {
-    let all =
-        [restitution(scene), empty(scene), outside_view(scene), outside_walls(scene), tunnels(scene), rounding(scene)];
-    all.into_iter().flatten().collect()
+/// Frames that nobody waits for: at a nanosecond each, a quarter of an hour.
+const FRAMES: f64 = 1e12;
+
+/// Sentences on what is allowed in the scene, solved with `settings`, but probably not meant; none for most scenes.
+pub fn warnings(scene: &Scene, settings: Settings) -> Vec<String> {
+    let of_the_scene = [restitution(scene), empty(scene), outside_view(scene), outside_walls(scene), rounding(scene)];
+    let of_the_settings = [tunnels(scene, settings), endless(scene, settings)];
+    of_the_scene.into_iter().chain(of_the_settings).flatten().collect()
 }
 
 fn restitution(scene: &Scene) -> Option<String> {
@@ -43,9 +46,15 @@ fn outside_walls(scene: &Scene) -> Option<String> {
     counted(scene, outside).map(|who| format!("{who} outside the box of all walls"))
 }
 
-fn tunnels(scene: &Scene) -> Option<String> {
-    let dt = scene.solver.dt;
-    let jumps = |sphere: &Sphere| scene.solver.method == Method::Paper && sphere.v.length() * dt > 2.0 * sphere.radius;
+fn endless(scene: &Scene, Settings { dt, .. }: Settings) -> Option<String> {
+    (scene.duration / dt > FRAMES).then(|| {
+        let (duration, dt) = (show_rounded(scene.duration), show_rounded(dt));
+        format!("{duration} s take more than 1e12 frames of {dt} s: nobody will see the end; raise dt")
+    })
+}
+
+fn tunnels(scene: &Scene, Settings { method, dt, .. }: Settings) -> Option<String> {
+    let jumps = |sphere: &Sphere| method == Method::Paper && sphere.v.length() * dt > 2.0 * sphere.radius;
     counted(scene, jumps).map(|who| {
         let dt = show_rounded(dt);
         format!("{who} so fast that it crosses more than its diameter in a step of {dt} s: `paper` may miss its contacts; lower dt")

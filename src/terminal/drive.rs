@@ -56,7 +56,8 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let (sender, events) = mpsc::channel();
     let post = Post(sender);
     let news = post.clone();
-    let app = App::new(setup, Arc::new(move || news.send(Event::Input(Input::News))))?;
+    let mut app = App::new(setup, Arc::new(move || news.send(Event::Input(Input::News))))?;
+    options.message.into_iter().for_each(|message| app.say(message));
     let guard = Session::start(io::stdout().as_fd(), post.clone())?;
     signals::start(Arc::clone(guard.session()), post.clone())?;
     let writer = Writer::start(Arc::clone(guard.session()), post.clone())?;

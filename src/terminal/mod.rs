@@ -28,6 +28,8 @@ pub struct Options {
     pub opened: Opened,
     /// What to solve it with.
     pub settings: Settings,
+    /// What to say at first, if anything.
+    pub message: Option<String>,
     /// Wait at t = 0 instead of running.
     pub paused: bool,
     /// Dots or characters; `None`: as the locale says.

@@ -22,6 +22,8 @@ pub(super) enum Layer {
     Empty,
     /// Walls.
     Wall,
+    /// Spheres of the exact run.
+    Ghost,
     /// Arrows of velocities and normals.
     Arrow,
     /// Spheres in free flight.

@@ -127,7 +127,11 @@ fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
 /// Energy and tallies of the whole run.
 fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     let tallies = snapshot.tallies;
-    column.heading("run", &format!("frame of {} s", numbers::short(snapshot.step)));
+    let unsolved = match tallies.unconverged {
+        0 => String::new(),
+        frames => format!(", {} unsolved", numbers::count(frames)),
+    };
+    column.heading("run", &format!("frame of {} s{unsolved}", numbers::short(snapshot.step)));
     column.entry("energy", &numbers::decimal(snapshot.energy, 10, 4), "J");
     let change = (snapshot.energy - snapshot.initial_energy) / snapshot.initial_energy.abs() * 100.0;
     if change.is_finite() {

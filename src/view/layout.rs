@@ -32,6 +32,8 @@ pub(super) struct Full {
     pub(super) panes: Vec<Pane>,
     /// The inspector's place, if it is shown.
     pub(super) inspector: Option<Rect>,
+    /// Where the exact run is compared, if it was asked for.
+    pub(super) trade: Option<Rect>,
     /// The timeline's row, if there is room.
     pub(super) timeline: Option<Rect>,
     /// Last row: hints, message or prompt.
@@ -71,9 +73,20 @@ impl Plan {
         let (status, rest) = split_top(rest, 1);
         let (body, timeline) = split_bottom(rest, u16::from(area.height >= 11));
         let (views, inspector) = split_inspector(body, area, look);
+        let (views, trade) = split_bottom(views, if look.ghost { trade_rows(views.height) } else { 0 });
+        let trade = (!trade.is_empty()).then_some(trade);
         let panes = panes(views, area, look, inspector.is_some());
         let timeline = (timeline.height > 0).then_some(timeline);
-        Plan::Full(Full { status, body, panes, inspector, timeline, last })
+        Plan::Full(Full { status, body, panes, inspector, trade, timeline, last })
+    }
+}
+
+/// Rows of the comparison with the exact run under views of so many rows: whole, one row, or none.
+fn trade_rows(views: u16) -> u16 {
+    match views {
+        15.. => 6,
+        4.. => 1,
+        _ => 0,
     }
 }
 

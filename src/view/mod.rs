@@ -22,6 +22,7 @@ mod sheet;
 mod stage;
 mod status;
 mod timeline;
+mod trade;
 
 use glam::DVec3;
 use ratatui::{
@@ -30,7 +31,7 @@ use ratatui::{
 };
 
 use self::{layout::Plan, sheet::Sheet};
-use crate::snapshot::{Snapshot, Stage, Ticks};
+use crate::snapshot::{Ghost, Snapshot, Stage, Ticks, Trade};
 
 /// Everything one frame shows.
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +42,8 @@ pub struct Screen<'a> {
     pub pace: Pace,
     /// Collisions so far.
     pub ticks: &'a Ticks,
+    /// The exact run beside this one, where it was asked for.
+    pub beside: Option<Beside<'a>>,
     /// What the user chose to look at, and how.
     pub look: &'a Look,
     /// What lies over the views.
@@ -49,6 +52,15 @@ pub struct Screen<'a> {
     pub message: Option<&'a str>,
     /// Key hints of the last row, (keys, what they do), the most useful first: as many as fit are shown.
     pub hints: &'a [(&'a str, &'a str)],
+}
+
+/// The exact run beside the one shown, and what its accuracy costs.
+#[derive(Debug, Clone, Copy)]
+pub struct Beside<'a> {
+    /// Where the exact run is, once it has reached a moment that was shown.
+    pub ghost: Option<&'a Ghost>,
+    /// Errors and costs over time.
+    pub trade: &'a Trade,
 }
 
 /// Whether and how fast the run goes.
@@ -90,6 +102,8 @@ pub struct Look {
     pub overlays: Overlays,
     /// Whether the inspector was asked for; wide screens always show it.
     pub inspector: bool,
+    /// Whether the exact run is shown beside this one.
+    pub ghost: bool,
     /// Dots or characters.
     pub marker: Marker,
     /// Depth of colour.
@@ -107,6 +121,7 @@ impl Default for Look {
             selected: None,
             overlays: Overlays { contacts: true, ..Overlays::default() },
             inspector: false,
+            ghost: false,
             marker: Marker::Braille,
             colors: Colors::Ansi16,
         }
@@ -204,11 +219,14 @@ pub fn draw(screen: &Screen, area: Rect, buffer: &mut Buffer) {
             sheet.put(area, &format!("too small {}x{}", area.width, area.height), plain);
         }
         Plan::Numbers { area } => draw_numbers(screen, area, &mut sheet),
-        Plan::Full(full) => draw_full(screen, &full, &mut sheet),
+        Plan::Full(full) => {
+            draw_full(screen, &full, &mut sheet);
+            prompt::draw_last_row(screen, area, &mut sheet);
+        }
     }
 }
 
-/// Status, views, inspector, timeline and hints, each where the plan has room for it.
+/// Status, views, inspector and timeline, each where the plan has room for it.
 fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
     status::draw(screen, plan.status, sheet);
     if !draw_popup(screen, plan.body, sheet) {
@@ -218,23 +236,25 @@ fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
         if let Some(area) = plan.inspector {
             inspector::draw(screen, area, sheet);
         }
+        if let (Some(area), Some(beside)) = (plan.trade, &screen.beside) {
+            trade::draw(screen, beside, area, sheet);
+        }
         status::draw_stall(screen, plan.body, sheet);
     }
     if let Some(area) = plan.timeline {
         timeline::draw(screen, area, sheet);
     }
-    prompt::draw_last_row(screen, plan.last, sheet);
 }
 
 /// Numbers only, for screens too small for a picture; popups and the prompt still show.
 fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
-    let (body, last) = layout::split_bottom(area, 1);
+    let (body, _) = layout::split_bottom(area, 1);
     let speaking = screen.message.is_some() || matches!(screen.popup, Popup::Prompt { .. });
     if !draw_popup(screen, if speaking { body } else { area }, sheet) {
         status::draw_numbers(screen, if speaking { body } else { area }, sheet);
     }
     if speaking {
-        prompt::draw_last_row(screen, last, sheet);
+        prompt::draw_last_row(screen, area, sheet);
     }
 }
 

@@ -1,12 +1,13 @@
 //! Numbers in columns that do not jitter: fixed widths while running, shortest forms for settings.
 
-/// A value right-aligned in `width` columns with so many decimals; scientific where that would show nothing of it or
-/// not fit.
+/// A value right-aligned in `width` columns with so many decimals, or fewer where they do not fit; scientific where that
+/// would show nothing of it.
 pub(super) fn decimal(value: f64, width: usize, decimals: usize) -> String {
     let value = if value == 0.0 { 0.0 } else { value }; // −0 is 0
-    let plain = format!("{value:>width$.decimals$}");
     let shown = value == 0.0 || !value.is_finite() || value.abs() >= 0.5 * tenth_to(decimals);
-    if shown && plain.len() <= width { plain } else { scientific(value, width) }
+    let with = |decimals: usize| format!("{value:>width$.decimals$}");
+    let plain = (0..=decimals).rev().map(with).find(|text| text.len() <= width);
+    plain.filter(|_| shown).unwrap_or_else(|| scientific(value, width))
 }
 
 /// A value right-aligned in `width` columns as 1.23e-4, with at most two decimals, fewer where they do not fit.
@@ -83,11 +84,12 @@ mod tests {
     }
 
     #[test]
-    fn a_decimal_keeps_its_width_and_turns_scientific_where_it_would_not_fit_or_show_nothing() {
-        let texts = [1.5, -2.25, 0.0, -0.0, 1e-7, 123_456.0, -1e-300, f64::NAN].map(|value| decimal(value, 9, 4));
-        let expected =
-            ["   1.5000", "  -2.2500", "   0.0000", "   0.0000", "  1.00e-7", "   1.23e5", "-1.0e-300", "      NaN"];
+    fn a_decimal_keeps_its_width_at_the_cost_of_digits_and_turns_scientific_where_it_would_show_nothing() {
+        let texts = [1.5, -2.25, 0.0, -0.0, 1e-7, -1e-300, f64::NAN].map(|value| decimal(value, 9, 4));
+        let expected = ["   1.5000", "  -2.2500", "   0.0000", "   0.0000", "  1.00e-7", "-1.0e-300", "      NaN"];
         assert_eq!(texts, expected);
+        let texts = [12_345.678_9, 123_456.0, 1.234_567_89e8, 1e12].map(|value| decimal(value, 9, 4));
+        assert_eq!(texts, ["12345.679", "123456.00", "123456789", "  1.00e12"]);
     }
 
     #[test]

@@ -65,6 +65,11 @@ impl Palette {
         self.ansi(Color::Green)
     }
 
+    /// The exact run.
+    pub(super) fn ghost(self) -> Style {
+        self.ansi(Color::LightCyan)
+    }
+
     /// Contact normals.
     pub(super) fn normal(self) -> Style {
         self.ansi(Color::LightMagenta)

@@ -4,18 +4,32 @@ use ratatui::layout::{Position, Rect};
 
 use super::{
     Popup, Screen,
-    layout::split_left,
+    layout::{split_bottom, split_left, split_top},
     sheet::{self, Sheet},
 };
 
-/// Draws the last row.
+/// Draws the last row of `area`, and as many over it as a long message needs.
 pub(super) fn draw_last_row(screen: &Screen, area: Rect, sheet: &mut Sheet) {
+    let (_, last) = split_bottom(area, 1);
     if let Popup::Prompt { text } = screen.popup {
-        draw_prompt(text, area, sheet);
+        draw_prompt(text, last, sheet);
     } else if let Some(message) = screen.message {
-        sheet.put(split_left(area, 1).1, message, sheet.palette.notice().patch(sheet.palette.strong()));
+        draw_message(message, area, sheet);
     } else {
-        draw_hints(screen.hints, area, sheet);
+        draw_hints(screen.hints, last, sheet);
+    }
+}
+
+/// The first row of `area` stays: it says what runs.
+fn draw_message(message: &str, area: Rect, sheet: &mut Sheet) {
+    let lines = sheet::wrap(message, area.width.saturating_sub(2));
+    let rows = (lines.len() as u16).clamp(1, area.height.saturating_sub(1).max(1));
+    let (_, mut rest) = split_bottom(area, rows);
+    sheet.clear(rest);
+    for line in lines {
+        let (row, below) = split_top(rest, 1);
+        sheet.put(split_left(row, 1).1, &line, sheet.palette.notice().patch(sheet.palette.strong()));
+        rest = below;
     }
 }
 

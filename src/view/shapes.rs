@@ -55,20 +55,37 @@ fn clip(canvas: &Canvas, a: Dots, b: Dots) -> Option<(Dots, Dots)> {
 /// The circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it, in
 /// its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
 pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+    rim(canvas, c, r, |_, _| true, ink);
+}
+
+/// The same with every other dot left out.
+pub(super) fn dotted_circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+    rim(canvas, c, r, |x, y| (x ^ y) & 1 == 0, ink);
+}
+
+/// The dots of a circle that are wanted.
+fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, ink: Ink) {
     if !meets(canvas, c, r) {
         return;
     }
+    let (width, height) = (canvas.width(), canvas.height());
+    let mut dot = |x: f64, y: f64| {
+        let (x, y) = (x.round() as i32, y.round() as i32);
+        if wanted(x, y) {
+            canvas.dot(x, y, ink);
+        }
+    };
     // Half a dot more than the eighth of the circle, so that steep and flat parts meet without a hole.
     let h = r * FRAC_1_SQRT_2 + 0.5;
-    for y in range(c.1 - h, c.1 + h, canvas.height()) {
-        let half = half_chord(r, f64::from(y) - c.1);
-        canvas.dot((c.0 - half).round() as i32, y, ink);
-        canvas.dot((c.0 + half).round() as i32, y, ink);
+    for y in range(c.1 - h, c.1 + h, height).map(f64::from) {
+        let half = half_chord(r, y - c.1);
+        dot(c.0 - half, y);
+        dot(c.0 + half, y);
     }
-    for x in range(c.0 - h, c.0 + h, canvas.width()) {
-        let half = half_chord(r, f64::from(x) - c.0);
-        canvas.dot(x, (c.1 - half).round() as i32, ink);
-        canvas.dot(x, (c.1 + half).round() as i32, ink);
+    for x in range(c.0 - h, c.0 + h, width).map(f64::from) {
+        let half = half_chord(r, x - c.0);
+        dot(x, c.1 - half);
+        dot(x, c.1 + half);
     }
 }
 

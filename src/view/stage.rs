@@ -55,6 +55,7 @@ pub(super) fn draw(screen: &Screen, pane: &Pane, sheet: &mut Sheet) {
     let canvas = Canvas::new(pane.canvas);
     let mut view = View { side: pane.side, area: pane.canvas, camera, canvas, screen };
     draw_walls(&mut view, sheet);
+    draw_ghost(&mut view, sheet);
     let states = states(snapshot);
     overlays::draw_arrows(&mut view, sheet);
     draw_spheres(&mut view, &states, sheet);
@@ -71,6 +72,19 @@ fn draw_walls(view: &mut View, sheet: &Sheet) {
         let dots = corners.map(|corner| view.project(corner));
         for i in 0..4 {
             shapes::line(&mut view.canvas, dots[i], dots[(i + 1) % 4], ink);
+        }
+    }
+}
+
+/// Where the exact run's spheres are: dotted circles under all others, so that only what has strayed shows one.
+fn draw_ghost(view: &mut View, sheet: &Sheet) {
+    let Some(ghost) = view.screen.beside.and_then(|beside| beside.ghost) else { return };
+    let ink = Ink::new(Layer::Ghost, sheet.palette.ghost());
+    for (x, radius) in ghost.x.iter().zip(&view.screen.snapshot.stage.radii) {
+        let (center, r) = (view.project(*x), radius * view.camera.scale);
+        match r < TINY {
+            true => shapes::disc(&mut view.canvas, center, r, 1, ink),
+            false => shapes::dotted_circle(&mut view.canvas, center, r, ink),
         }
     }
 }

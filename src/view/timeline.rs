@@ -18,7 +18,8 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (_, rest) = split_left(area, used);
     let mut right = format!(" {} s ", numbers::short(end));
     if rest.width >= 50 {
-        right += &format!(" {:>6} impacts ", numbers::count(snapshot.tallies.impacts));
+        let impacts = snapshot.tallies.impacts;
+        right += &format!(" {:>6} {} ", numbers::count(impacts), if impacts == 1 { "impact " } else { "impacts" });
     }
     let columns = (sheet::width(&right) as u16).min(rest.width);
     let (track, right_area) = split_right(rest, columns);

@@ -4,20 +4,23 @@
 //! `notify` only if the reader has taken the one before. While paused it sleeps until a command comes. No bit of a run
 //! depends on any of it.
 
+mod beside;
 mod pace;
 mod run;
+mod slot;
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
+        Arc,
         mpsc::{self, Sender},
     },
     thread,
 };
 
+pub use beside::Beside;
 use run::Runner;
+use slot::Slot;
 
 use crate::{
     scene::{Scene, Settings},
@@ -90,36 +93,17 @@ pub struct Report {
     pub reached: Option<f64>,
     /// Commands obeyed so far.
     pub obeyed: u64,
+    /// CPU time spent on the run since t = 0, s; 0 where the system does not tell.
+    pub cpu: f64,
     /// What the worker's panic said; nothing more will come.
     pub panic: Option<String>,
-}
-
-/// The one slot between worker and reader.
-struct Slot {
-    latest: Mutex<Arc<Report>>,
-    fresh: AtomicBool,
-    notify: Notify,
-}
-
-impl Slot {
-    fn put(&self, report: Report) {
-        *self.latest.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(report);
-        if !self.fresh.swap(true, Ordering::AcqRel) {
-            (self.notify)();
-        }
-    }
-
-    fn take(&self) -> Arc<Report> {
-        self.fresh.store(false, Ordering::Release);
-        Arc::clone(&self.latest.lock().unwrap_or_else(PoisonError::into_inner))
-    }
 }
 
 /// A worker thread, seen from its reader. Dropping it ends the thread.
 pub struct Worker {
     commands: Sender<Command>,
     sent: u64,
-    slot: Arc<Slot>,
+    slot: Arc<Slot<Report>>,
 }
 
 impl Worker {
@@ -130,8 +114,7 @@ impl Worker {
     pub fn start(job: Job, speed: f64, notify: Notify) -> std::io::Result<Worker> {
         let (commands, inbox) = mpsc::channel();
         let mut runner = Runner::new(job, speed, inbox);
-        let latest = Mutex::new(Arc::new(runner.report()));
-        let slot = Arc::new(Slot { latest, fresh: AtomicBool::new(false), notify });
+        let slot = Arc::new(Slot::new(runner.report(), notify));
         let theirs = Arc::clone(&slot);
         thread::Builder::new().name("simulation".into()).spawn(move || {
             // The runner is given up with the thread, so nobody can see what the panic left half done.

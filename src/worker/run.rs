@@ -13,6 +13,7 @@ use super::{
     pace::{Budget, Pace},
 };
 use crate::{
+    measure,
     physics::{Class, Progress, Simulation, Stall, Until},
     snapshot::{Snapshot, Ticks},
 };
@@ -60,6 +61,8 @@ pub(super) struct Runner {
     moved: bool,
     /// Whether anything has changed since the last report.
     unreported: bool,
+    /// CPU time spent on advancing since t = 0, s.
+    cpu: f64,
     /// When the next report of a running run is due, s on `clock`.
     report_due: f64,
 }
@@ -81,12 +84,13 @@ impl Runner {
             obeyed: 0,
             moved: false,
             unreported: false,
+            cpu: 0.0,
             report_due: 0.0,
         }
     }
 
     /// Until nobody is left to send commands.
-    pub(super) fn run(&mut self, slot: &Slot) {
+    pub(super) fn run(&mut self, slot: &Slot<Report>) {
         while self.listen() {
             if self.goal != Goal::Nowhere {
                 self.slice();
@@ -182,13 +186,14 @@ impl Runner {
         self.simulation = begin(&self.job);
         self.ticks = Ticks::new(self.job.stage.duration);
         self.stall = None;
+        self.cpu = 0.0;
         self.moved = true;
         self.head_for(if self.goal == Goal::On { Goal::On } else { Goal::Nowhere });
     }
 
     /// Advances for about [`SLICE`], or to the goal, or up to what is due.
     fn slice(&mut self) {
-        let start = self.now();
+        let (start, worked) = (self.now(), measure::thread_cpu());
         let until = match self.goal {
             Goal::On => Until::Time(self.pace.target(start, self.simulation.time())),
             Goal::Time(t) => Until::Time(t),
@@ -200,6 +205,7 @@ impl Runner {
             }
             self.advance(until);
         }
+        self.cpu += measure::thread_cpu() - worked;
         self.pace.measure(self.now(), self.simulation.time());
     }
 
@@ -256,6 +262,7 @@ impl Runner {
             wanted: self.pace.wanted(),
             reached: self.pace.reached(),
             obeyed: self.obeyed,
+            cpu: self.cpu,
             panic: None,
         }
     }

@@ -211,7 +211,7 @@ impl Pty {
 
     /// Whether the terminal is as a program must leave it, except for its modes of the line (see [`Pty::modes`]).
     pub(crate) fn assert_given_back(&self) {
-        assert_eq!(self.modes_left_on(), [], "modes left on");
+        assert_eq!(self.modes_left_on(), [0; 0], "modes left on");
         assert!(!self.screen().hide_cursor(), "the cursor is hidden");
         assert!(!self.screen().alternate_screen(), "the alternate screen is on");
     }

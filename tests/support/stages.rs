@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use carom::{
     geometry::{Bounds, Parallelogram},
-    snapshot::{Class, Contact, Kind, Probe, Snapshot, Stage, Tallies, Ticks},
-    view::{Look, Mode, Pace, Popup, Screen},
+    snapshot::{Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
+    view::{Beside, Look, Mode, Pace, Popup, Screen},
 };
 use glam::{DVec3, dvec3};
 
@@ -17,6 +17,8 @@ pub(crate) struct Scene {
     pub(crate) ticks: Ticks,
     pub(crate) look: Look,
     pub(crate) pace: Pace,
+    /// The exact run beside it.
+    pub(crate) beside: Option<(Option<Ghost>, Trade)>,
 }
 
 pub(crate) const HINTS: &[(&str, &str)] = &[
@@ -38,6 +40,7 @@ impl Scene {
             snapshot: &self.snapshot,
             pace: self.pace,
             ticks: &self.ticks,
+            beside: self.beside.as_ref().map(|(ghost, trade)| Beside { ghost: ghost.as_ref(), trade }),
             look: &self.look,
             popup: Popup::None,
             message: None,
@@ -95,7 +98,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
     };
     let ticks = Ticks { span: 20.0, impacts: vec![0; 80] };
     let pace = Pace { mode: Mode::Pause, wanted: 1.0, reached: None };
-    Scene { snapshot, ticks, look: Look::default(), pace }
+    Scene { snapshot, ticks, look: Look::default(), pace, beside: None }
 }
 
 /// Changes what is constant.
@@ -196,6 +199,27 @@ pub(crate) fn pile() -> Scene {
     scene.look.overlays.velocities = true;
     scene.look.overlays.normals = true;
     scene.look.overlays.ids = true;
+    scene
+}
+
+/// A run that has strayed from the exact one beside it, which lags a little.
+pub(crate) fn strayed() -> Scene {
+    let mut scene = wedge();
+    let off = [dvec3(-0.3, 0.6, 0.0), dvec3(0.02, -0.01, 0.0)];
+    let x: Vec<DVec3> = scene.snapshot.x.iter().zip(off).map(|(x, off)| *x + off).collect();
+    let deviations = off.iter().map(|off| off.length()).collect();
+    let ghost = Ghost { t: 3.4572, x, deviations, energy_error: -3.2e-3, horizon: None, stall: None };
+    let mut trade = Trade::new(20.0);
+    for k in 0..70 {
+        let t = f64::from(k) * 0.05;
+        trade.deviation.add(t, 1e-6 * f64::from(k * k * k));
+        trade.energy_error.add(t, -1e-4 * f64::from(k / 10));
+        trade.deepest_degree.add(t, 1.1e-3);
+        trade.evaluations.add(t, f64::from(8 + k % 7));
+        trade.cost.add(t, 0.35 + 0.01 * f64::from(k % 3));
+    }
+    scene.look.ghost = true;
+    scene.beside = Some((Some(ghost), trade));
     scene
 }
 

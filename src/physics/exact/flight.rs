@@ -196,13 +196,6 @@ impl Flight {
         }
     }
 
-    /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
-    #[inline]
-    pub(super) fn kick(&mut self, i: usize, change: DVec3) {
-        let seat = self.seat(i);
-        self.records[seat].line.v += change;
-    }
-
     /// Gives sphere `i`, whose line is at the present, another acceleration, m/s².
     pub(super) fn accelerate(&mut self, i: usize, a: DVec3) {
         if a == self.acceleration(i) {

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
+use super::bounce::along;
 use crate::physics::contact::Key;
-use crate::physics::contact_time::{curvature, pair_normal_velocity, touch};
+use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
+use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
@@ -18,6 +20,9 @@ const COLLAPSE: u32 = 1000;
 
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
+
+/// Releases of one contact without the clock advancing after which it is held for a moment.
+const STUCK: u32 = 20;
 
 /// Over how many events the clock must advance by more than rounding.
 const STRETCH: u64 = 20_000_000;
@@ -42,9 +47,21 @@ const CLOCK: f64 = 1e-3;
 pub(super) struct Instant {
     events: u64,
     impacts: BTreeMap<Key, u32>,
+    /// How often each contact has opened.
+    releases: BTreeMap<Key, u32>,
     /// Events in this stretch, and the time when it began, s.
     stretch: u64,
     since: f64,
+}
+
+impl Instant {
+    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
+    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
+        let count = self.releases.entry(key).or_default();
+        *count += 1;
+        *count > STUCK
+    }
 }
 
 /// Two bodies that touch.
@@ -54,12 +71,14 @@ pub(super) struct Meeting {
     pub(super) point: DVec3,
     pub(super) normal: DVec3,
     /// Gap, m, and what it is measured by: r, or r₁ + r₂.
-    gap: f64,
+    pub(super) gap: f64,
     reach: f64,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
-    a_n: f64,
+    pub(super) a_n: f64,
+    /// Whether that stays so as the bodies move: the face of a wall.
+    pub(super) flat: bool,
 }
 
 impl Meeting {
@@ -82,15 +101,16 @@ impl Meeting {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
         let Exact { instant, now, .. } = self;
         if time > *now {
             *now = time;
             instant.events = 0;
-            if !instant.impacts.is_empty() {
+            if !instant.impacts.is_empty() || !instant.releases.is_empty() {
                 instant.impacts.clear();
+                instant.releases.clear();
             }
         }
         instant.events += 1;
@@ -121,6 +141,10 @@ impl Exact {
     /// The contact that the sphere at a seat planned is due.
     pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
         let plan = self.flight.records[seat].plan;
+        if !plan.sure {
+            self.predict_at(model, seat);
+            return Ok(());
+        }
         let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
         let key = self.key(seat, &plan);
         if stale || self.rests.holds(key) {
@@ -142,13 +166,13 @@ impl Exact {
         if kind == Kind::Pair {
             self.bring(b);
         }
-        self.seen(model, key)
+        self.seen(model, key, self.now)
     }
 
-    /// The same without touching the lines.
-    pub(super) fn seen(&self, model: &Model, key: Key) -> Meeting {
+    /// The same at `time` (s) without touching the lines.
+    pub(super) fn seen(&self, model: &Model, key: Key, time: f64) -> Meeting {
         let (kind, a, b) = key;
-        let path = self.flight.path(a, self.now);
+        let path = self.flight.path(a, time);
         match kind {
             Kind::Wall => {
                 let (face, r) = (&model.faces[b], self.flight.line(a).r);
@@ -158,10 +182,11 @@ impl Exact {
                 let slow = v_n.abs() <= SLOW * path.v.length();
                 let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
                 let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
-                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n }
+                let flat = part == Part::Face && at.part == part;
+                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
             }
             Kind::Pair => {
-                let other = self.flight.path(b, self.now);
+                let other = self.flight.path(b, time);
                 let relative = path.relative_to(&other);
                 let (r_a, r_b) = (self.flight.line(a).r, self.flight.line(b).r);
                 let (reach, distance) = (r_a + r_b, relative.x.length());
@@ -170,16 +195,22 @@ impl Exact {
                 let across = relative.v - normal * v_n;
                 let a_n = normal.dot(relative.a) + across.length_squared() / distance;
                 let point = other.x + normal * (r_b + 0.5 * gap);
-                Meeting { key, point, normal, gap, reach, v_n, a_n }
+                Meeting { key, point, normal, gap, reach, v_n, a_n, flat: false }
             }
         }
     }
 
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let meeting = self.meeting(model, key);
+        let before = *self.flight.line(key.1);
+        let mut meeting = self.meeting(model, key);
+        self.keep_energy(model, &before, &mut meeting);
         match self.class(model, log, &meeting) {
             Class::Collide => self.collide(model, log, &meeting),
+            Class::Rest if self.brushes(&meeting) => {
+                self.turn_back(model, &meeting);
+                self.follow_up(model, log, key)
+            }
             Class::Rest => {
                 self.rests.propose(
                     model,
@@ -192,7 +223,7 @@ impl Exact {
             }
             Class::Leave | Class::Release => {
                 if meeting.a_n >= 0.0 {
-                    self.part(model, key, f64::EPSILON * self.flight.line(key.1).v.length());
+                    self.part(model, key, self.hop_speed(&meeting));
                 }
                 Ok(())
             }
@@ -232,25 +263,13 @@ impl Exact {
         class
     }
 
-    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
-    /// flights, 2 e |v_n| / (g_n (1 − e)). Only where they change nothing but the height, and where no rest speed ends
-    /// them before.
-    fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
-        let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.key.0 == Kind::Wall && law.tangential == 1.0 && e < 1.0;
-        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
-            return 0.0;
-        }
-        2.0 * e * -meeting.v_n / (-meeting.a_n * (1.0 - e))
-    }
-
     /// Rounding of the clock, s.
     pub(super) fn tick(&self) -> f64 {
         let t = self.now.abs().max(CLOCK);
         t.next_up() - t
     }
 
-    /// An impact: both bodies get their impulse, rests that it breaks end, and what comes next is predicted.
+    /// An impact: both bodies get their impulse.
     pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Result<(), Stall> {
         let (kind, a, b) = meeting.key;
         let target = separation_speed(meeting.v_n, Class::Collide, kind, &model.law);
@@ -259,7 +278,7 @@ impl Exact {
             Kind::Wall => {
                 let v = self.flight.line(a).v;
                 let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
-                self.flight.kick(a, meeting.normal * change + slip);
+                self.push(a, along(meeting.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
@@ -269,8 +288,8 @@ impl Exact {
                 let (share_a, share_b) = (self.flight.inverse_mass(a), self.flight.inverse_mass(b));
                 let share = share_a + share_b;
                 let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
-                self.flight.kick(a, push * share_a);
-                self.flight.kick(b, push * -share_b);
+                self.push(a, push * share_a);
+                self.push(b, push * -share_b);
                 change / share
             }
         };
@@ -279,6 +298,16 @@ impl Exact {
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
         log.contacts.push(row);
         log.event(row);
+        self.follow_up(model, log, meeting.key)?;
+        if target == 0.0 && meeting.a_n < 0.0 {
+            // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
+            self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, self.now);
+        }
+        Ok(())
+    }
+
+    /// The bodies of a contact have got new velocities: rests that this breaks end, and what comes next is predicted.
+    fn follow_up(&mut self, model: &Model, log: &mut Log, (kind, a, b): Key) -> Result<(), Stall> {
         let touched = if kind == Kind::Pair { &[a, b][..] } else { &[a][..] };
         for &i in touched {
             self.finite(i)?;
@@ -289,6 +318,12 @@ impl Exact {
             self.predict(model, i);
         }
         Ok(())
+    }
+
+    /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
+    pub(super) fn push(&mut self, i: usize, change: DVec3) {
+        let line = *self.flight.line(i);
+        self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
 
     /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
@@ -303,8 +338,8 @@ impl Exact {
             if v_n >= least || v_n.is_nan() {
                 return;
             }
-            let normal = self.seen(model, key).normal;
-            self.flight.kick(i, normal * (sign * nudge.max(least - v_n)));
+            let normal = self.seen(model, key, self.now).normal;
+            self.push(i, normal * (sign * nudge.max(least - v_n)));
             nudge *= 2.0;
         }
     }
@@ -313,7 +348,7 @@ impl Exact {
     fn v_n(&self, model: &Model, key: Key) -> f64 {
         let (kind, a, b) = key;
         if kind == Kind::Wall {
-            return self.seen(model, key).v_n;
+            return self.seen(model, key, self.now).v_n;
         }
         let (one, two) = (self.flight.line(a), self.flight.line(b));
         pair_normal_velocity(one.x - two.x, one.v - two.v)

@@ -5,6 +5,7 @@ use super::cells::Near;
 use super::flight::Record;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::touch;
+use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::overlap::touching;
 use crate::physics::{Kind, Model, Stall};
@@ -12,7 +13,7 @@ use crate::physics::{Kind, Model, Stall};
 /// Events at the very start after which the rest is left to the first frame.
 const MOST_AT_LOAD: usize = 1_000_000;
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Handles what touches at the start, in the order of events, and predicts everything.
     pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
         for key in self.touching_now(model) {

@@ -6,6 +6,7 @@
 //! instant, islands of resting contacts are settled (`rest`). Reading never rewrites a line (`flight`), and frames only
 //! say where to pause: neither changes a bit of the trajectory.
 
+mod bounce;
 mod cells;
 mod curved;
 mod flight;
@@ -17,12 +18,14 @@ mod order;
 mod prediction;
 mod queue;
 mod rest;
+mod roots;
 mod scout;
 
 use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::{Cells, Near};
@@ -31,6 +34,7 @@ use impact::Instant;
 use islands::Rests;
 use lanes::Lanes;
 use queue::Queue;
+pub(super) use roots::Roots;
 use scout::Scout;
 
 /// What the method is.
@@ -48,8 +52,9 @@ const FEW: usize = 64;
 
 /// The event-driven method at work.
 #[derive(Debug, Clone)]
-pub(super) struct Exact {
+pub(super) struct Exact<D> {
     settings: Settings,
+    detector: D,
     /// Time of the last event, s.
     now: f64,
     frame: Frame,
@@ -90,11 +95,12 @@ enum Turn {
     Frame,
 }
 
-impl Engine for Exact {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact {
+impl<D: Detector> Engine for Exact<D> {
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact<D> {
         let count = model.len();
         let mut exact = Exact {
             settings,
+            detector: D::new(settings),
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
             flight: Flight::new(model, &state),
@@ -136,8 +142,13 @@ impl Engine for Exact {
         }
     }
 
-    fn retune(&mut self, _: &Model, settings: Settings) {
+    fn retune(&mut self, model: &Model, settings: Settings) {
+        let same = settings.tolerance == self.settings.tolerance;
         self.settings = settings;
+        if !D::SOLVES && !same {
+            self.detector = D::new(settings);
+            (0..model.len()).for_each(|i| self.predict(model, i));
+        }
     }
 
     fn state(&self, model: &Model) -> Cow<'_, State> {
@@ -170,7 +181,7 @@ impl Engine for Exact {
     }
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.flight.forget();
@@ -178,7 +189,9 @@ impl Exact {
         log.probes.clear();
     }
 
-    fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
+    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
+        self.detector.report(self.frame.time, end, log);
+        self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
         log.tallies.evaluations += std::mem::take(&mut self.evaluations);
@@ -205,12 +218,12 @@ impl Exact {
         }
         if !log.contacts.is_empty() && time > self.now && self.now > self.frame.time {
             self.next = Some((time, seat));
-            return Ok(self.close_frame(log, self.now));
+            return Ok(self.close_frame(model, log, self.now));
         }
         let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
         if time > end {
             self.next = Some((time, seat));
-            return Ok(self.close_frame(log, end));
+            return Ok(self.close_frame(model, log, end));
         }
         self.advance_clock(time, model.len())?;
         self.scout();

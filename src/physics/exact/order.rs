@@ -1,11 +1,12 @@
 //! Who sits where: neighbours side by side, so that what an event reads lies together.
 
 use super::Exact;
+use crate::physics::detector::Detector;
 
 /// Crossings per sphere after which the spheres are seated anew: they have gone some cubes from their seats by then.
 const CROSSINGS: usize = 3;
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Counts a crossing, and seats the spheres anew when there were many. No result depends on it.
     pub(super) fn count_crossing(&mut self) {
         self.crossings += 1;
@@ -50,7 +51,7 @@ impl Exact {
 
 #[cfg(test)]
 mod tests {
-    use crate::physics::exact::Exact;
+    use crate::physics::exact::{Exact, Roots};
     use crate::physics::log::Log;
     use crate::physics::{Engine, Method, Model, Progress, Scene, Settings, Until};
 
@@ -68,7 +69,7 @@ mod tests {
         let model = Model::new(&gas());
         let settings = Settings { method: Method::Exact, dt: 0.01, tolerance: 1e-3 };
         let mut log = Log { recording: true, ..Log::default() };
-        let mut still = Exact::begin(&model, settings, model.initial.clone(), &mut log);
+        let mut still = Exact::<Roots>::begin(&model, settings, model.initial.clone(), &mut log);
         let (mut moved, mut moved_log) = (still.clone(), log.clone());
         for round in 0..200_u64 {
             assert_eq!(still.advance(&model, &mut log, Until::Time(f64::INFINITY), 50), Progress::Yielded);

@@ -6,7 +6,8 @@ use super::Exact;
 use super::cells::{Near, Way};
 use super::lanes::{Eye, MOST};
 use crate::physics::contact::Key;
-use crate::physics::contact_time::{Path, sphere_sphere, sphere_wall, straight_pair};
+use crate::physics::contact_time::{Path, straight_pair};
+use crate::physics::detector::{Detector, Due, Span};
 use crate::physics::{Kind, Model};
 
 /// The next event of a sphere as predicted with what was known then. One is kept per sphere: whichever of two partners
@@ -23,6 +24,8 @@ pub(super) struct Plan {
     pub(super) stamp: u32,
     /// Wall or pair.
     pub(super) kind: Kind,
+    /// Whether they touch then; else it is time to look again.
+    pub(super) sure: bool,
     /// Into which cube.
     pub(super) way: Way,
 }
@@ -35,6 +38,7 @@ impl Plan {
         other: 0,
         stamp: 0,
         kind: Kind::Wall,
+        sure: true,
         way: Way { axis: 0, sign: 1 },
     };
 }
@@ -42,7 +46,7 @@ impl Plan {
 /// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
 pub(super) type Rank = (u8, usize, usize);
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Predicts sphere `i` afresh from the present on.
     pub(super) fn predict(&mut self, model: &Model, i: usize) {
         self.predict_at(model, self.flight.seat(i));
@@ -89,10 +93,13 @@ impl Exact {
         }
         let (crossing, way) = cells.crossing(cube, path);
         (plan.crossing, plan.way) = (self.now + crossing, way);
-        // pairs first: what they are to meet soon spares most walls the search for edges
-        let count = self.pairs(seat, path, &mut near, plan);
         let walls = cells.walls_near(cube).iter().map(|&wall| wall as usize);
-        let count = count + self.walls(model, seat, path, walls, plan);
+        // pairs first where that is quick: what they are to meet soon spares most walls the search for edges
+        let count = if D::SOLVES {
+            self.pairs(seat, path, &mut near, plan) + self.walls(model, seat, path, walls, plan)
+        } else {
+            self.walls(model, seat, path, walls, plan) + self.pairs(seat, path, &mut near, plan)
+        };
         self.near = near;
         count
     }
@@ -148,11 +155,12 @@ impl Exact {
                 continue;
             }
             count += 1;
-            let before = self.before(plan);
-            let Some(t) = sphere_wall(path, r, &model.faces[wall], before) else { continue };
-            let time = self.now + t;
+            let Some(due) = self.detector.wall(path, r, &model.faces[wall], self.span_for_walls(plan)) else {
+                continue;
+            };
+            let time = self.now + due.after;
             if time < plan.contact || (time == plan.contact && plan.kind == Kind::Pair) {
-                (plan.contact, plan.kind, plan.other) = (time, Kind::Wall, wall as u32);
+                (plan.contact, plan.kind, plan.other, plan.sure) = (time, Kind::Wall, wall as u32, due.sure);
             }
         }
         count
@@ -161,17 +169,22 @@ impl Exact {
     /// Until when a wall is worth a look, s from now: walls come before pairs of the same time, and times that round to
     /// the same are the same.
     #[inline]
-    fn before(&self, plan: &Plan) -> f64 {
+    fn span_for_walls(&self, plan: &Plan) -> Span {
         match plan.kind {
-            Kind::Wall => plan.contact - self.now,
-            Kind::Pair => (plan.contact.next_up() - self.now).next_up(),
+            Kind::Pair if D::SOLVES => Span { now: self.now, before: (plan.contact.next_up() - self.now).next_up() },
+            _ => self.span_before(plan.contact),
         }
+    }
+
+    #[inline]
+    fn span_before(&self, time: f64) -> Span {
+        Span { now: self.now, before: time - self.now }
     }
 
     /// Looks at the pairs of a sphere and those near it, itself among them; returns how many.
     #[inline]
     fn pairs(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) -> u64 {
-        if self.flight.common().is_some() {
+        if D::SOLVES && self.flight.common().is_some() {
             self.alike(seat, path, near, plan);
         } else {
             for &other in near.seats().iter().filter(|&&other| other as usize != seat) {
@@ -207,7 +220,7 @@ impl Exact {
                 first = if time < first { time } else { first };
             }
             if first < f64::INFINITY {
-                self.offer(seat, with, first, plan);
+                self.offer(seat, with, first, true, plan);
             }
         }
     }
@@ -220,7 +233,7 @@ impl Exact {
             // whether they approach is for the handler's own expression to say
             self.pair(seat, path, other, plan);
         } else if time < f64::INFINITY {
-            self.offer(seat, other, time, plan);
+            self.offer(seat, other, time, true, plan);
         }
     }
 
@@ -229,20 +242,23 @@ impl Exact {
     fn pair(&self, seat: usize, path: &Path, other: usize, plan: &mut Plan) -> u64 {
         let line = &self.flight.records[other].line;
         let reach = self.flight.records[seat].line.r + line.r;
-        let found = if self.flight.common() == Some(DVec3::ZERO) {
-            straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach)
+        let found = if D::SOLVES && self.flight.common() == Some(DVec3::ZERO) {
+            let t = straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach);
+            t.map(|after| Due { after, sure: true })
         } else {
-            let relative = path.relative_to(&self.flight.path_from(other, self.now));
-            sphere_sphere(&relative, reach, plan.contact - self.now)
+            // what the other meets before makes it look around anew, and find this one then
+            let theirs = self.flight.records[other].plan.contact;
+            let before = if D::SOLVES { plan.contact } else { plan.contact.min(theirs) };
+            self.detector.pair(path, &self.flight.path_from(other, self.now), reach, self.span_before(before))
         };
-        let Some(t) = found else { return 1 };
-        self.offer(seat, other, self.now + t, plan)
+        let Some(due) = found else { return 1 };
+        self.offer(seat, other, self.now + due.after, due.sure, plan)
     }
 
     /// Plans to meet the sphere at `other` at `time` (s) if nothing is planned before; returns 0 if the two rest on each
     /// other.
     #[inline]
-    fn offer(&self, seat: usize, other: usize, time: f64, plan: &mut Plan) -> u64 {
+    fn offer(&self, seat: usize, other: usize, time: f64, sure: bool, plan: &mut Plan) -> u64 {
         if time < plan.contact || time == plan.contact && self.wins_tie(seat, other, plan) {
             if !self.rests.is_empty() {
                 let (i, j) = (self.flight.sphere(seat), self.flight.sphere(other));
@@ -250,7 +266,7 @@ impl Exact {
                     return 0;
                 }
             }
-            (plan.contact, plan.kind) = (time, Kind::Pair);
+            (plan.contact, plan.kind, plan.sure) = (time, Kind::Pair, sure);
             (plan.other, plan.stamp) = (other as u32, self.flight.records[other].stamp);
         }
         1

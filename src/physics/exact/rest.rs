@@ -12,7 +12,7 @@ use super::impact::HOP;
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
 
 /// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// A contact of a curved island that opens by no more than this share of the accelerations is looked at again after
 /// every step.

@@ -8,6 +8,7 @@
 use super::Exact;
 use super::cells::Near;
 use crate::physics::Kind;
+use crate::physics::detector::Detector;
 
 /// Fewer spheres are in a fast cache anyhow.
 const MANY: usize = 20_000;
@@ -32,7 +33,7 @@ pub(super) struct Scout {
     near: Near,
 }
 
-impl Exact {
+impl<D: Detector> Exact<D> {
     /// Called at every event.
     #[inline]
     pub(super) fn scout(&mut self) {

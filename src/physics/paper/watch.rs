@@ -59,7 +59,7 @@ impl Paper {
         if self.trial.is_none() && self.watch.cut >= PATIENCE + model.len() as u64 {
             let stalled = self.end.t - self.watch.since < self.watch.owed;
             self.watch = Watch::at(self.end.t);
-            return stalled.then(|| self.resting_stall(log));
+            return stalled.then(|| self.shrinking(log));
         }
         None
     }
@@ -85,18 +85,23 @@ impl Paper {
         Some(Stall { time: t, kind: "not-finite", reason })
     }
 
-    fn resting_stall(&self, log: &Log) -> Stall {
+    /// Support that cannot hold, or bounces too low for the accepted overlap: each ends frames without end.
+    fn shrinking(&self, log: &Log) -> Stall {
+        let bounces = log.contacts.iter().any(|contact| contact.class == Class::Collide);
+        let (kind, cause) = match bounces {
+            true => ("slow-bounce", "slow impacts come back before they have left the overlap that is accepted"),
+            false => ("resting-contact", "support given contact by contact cannot hold a wedge or a stack"),
+        };
         let mut bodies: Vec<String> = log.contacts.iter().take(NAMED).map(names).collect();
         if log.contacts.len() > NAMED {
             bodies.push(format!("{} more", log.contacts.len() - NAMED));
         }
-        let time = self.end.t;
+        let (time, bodies) = (self.end.t, bodies.join(", "));
         let reason = format!(
-            "From t = {time} s on the frames of method paper shrink without end, because support given contact by \
-             contact cannot hold a wedge or a stack (in contact: {}); change the method from here.",
-            bodies.join(", "),
+            "From t = {time} s on the frames of method paper shrink without end, because {cause} (in contact: {bodies}); \
+             change the method from here."
         );
-        Stall { time, kind: "resting-contact", reason }
+        Stall { time, kind, reason }
     }
 }
 

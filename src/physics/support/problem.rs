@@ -13,6 +13,9 @@ use super::island::Island;
 /// twelve neighbours, each of three products; smaller and noise reads as motion, larger and slow releases are missed.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// What velocities are scaled up by where their squares would underflow: an even power of two, so that it rounds nothing.
+const HUGE: f64 = f64::from_bits((1023 + 900) << 52);
+
 /// A row in local indices.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LocalRow {
@@ -40,12 +43,19 @@ impl Problem {
             let row = rows[index];
             LocalRow { a: local(row.a), b: row.b.map(local), normal: row.normal, offset: row.offset }
         });
-        let weight: f64 = island.bodies.iter().map(|&body| free[body].length_squared() / inverse_mass[body]).sum();
+        let sum = |scale: f64| -> f64 {
+            island.bodies.iter().map(|&body| (free[body] * scale).length_squared() / inverse_mass[body]).sum()
+        };
+        let weight = match sum(1.0) {
+            // velocities that a collapse has left may be too small for f64 to square
+            squares if squares < f64::MIN_POSITIVE / f64::EPSILON => sum(HUGE).sqrt() / HUGE,
+            squares => squares.sqrt(),
+        };
         Problem {
             rows: rows.collect(),
             inverse_mass: island.bodies.iter().map(|&body| inverse_mass[body]).collect(),
             free: island.bodies.iter().map(|&body| free[body]).collect(),
-            weight: weight.sqrt(),
+            weight,
         }
     }
 

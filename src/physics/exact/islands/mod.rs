@@ -1,5 +1,6 @@
 //! Which contacts rest, and the islands they form: from one event of an island to the next.
 
+mod carried;
 mod settling;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,10 +12,12 @@ use super::impact::{Meeting, ZENO};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::Part;
+use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::parts::{part_ahead, part_end};
 use crate::physics::support::{Fate, islands};
 use crate::physics::{Class, Kind, Model, Stall, State};
+use carried::Load;
 
 /// No island.
 const NONE: u32 = u32::MAX;
@@ -28,8 +31,10 @@ struct Held {
     announced: bool,
     /// v_n when it was proposed, m/s.
     v_n: f64,
-    /// Until when ever smaller bounces go on in truth, s: the rest is announced then.
-    bounces_until: f64,
+    /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
+    /// again then, and no rest announced before.
+    settles_at: f64,
+    load: Load,
 }
 
 /// Spheres connected by resting contacts, until something changes.
@@ -107,6 +112,11 @@ impl Curve {
         self.length = self.arc.chord(self.offset);
         self.changes = self.arc.changes && self.length >= left;
         self
+    }
+
+    /// Ends the chord after `time` (s), if that is sooner, to have the island settled anew.
+    fn cut(self, time: f64) -> Curve {
+        if time < self.length { Curve { length: time, changes: true, ..self } } else { self }
     }
 
     /// The spheres `time` (s) after the chord's beginning.
@@ -196,7 +206,7 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, v_n: meeting.v_n, bounces_until };
+        let held = Held { part, announced: false, v_n: meeting.v_n, settles_at: bounces_until, load: Load::default() };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {
@@ -214,6 +224,13 @@ impl Rests {
             self.of[b].retain(|&other| other != key);
         }
         self.held.remove(&key).is_some_and(|held| held.announced)
+    }
+
+    /// Holds a contact that opens until `time` (s) all the same.
+    fn hold_until(&mut self, key: Key, time: f64) {
+        if let Some(held) = self.held.get_mut(&key) {
+            held.settles_at = time;
+        }
     }
 
     /// The spheres of every island that a dirty sphere belongs or is connected to, ascending.

@@ -2,7 +2,11 @@
 
 use super::*;
 
-impl Exact {
+/// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
+/// part by more than rounding, too short to be seen.
+const PAUSE: f64 = 1e-7;
+
+impl<D: Detector> Exact<D> {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
     pub(in crate::physics::exact) fn bring(&mut self, i: usize) {
         let now = self.now;
@@ -27,7 +31,7 @@ impl Exact {
         }
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.line(i).v.length() {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
@@ -39,7 +43,7 @@ impl Exact {
 
     fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
         if self.rests.drop(key) {
-            let meeting = self.seen(model, key);
+            let meeting = self.seen(model, key, self.now);
             let row = meeting.row(self.now, Class::Release, 0.0, meeting.v_n);
             log.contacts.push(row);
             log.event(row);
@@ -146,25 +150,37 @@ impl Exact {
             self.flight.accelerate(i, settled.a[place]);
         }
         self.announce(model, log, keys, &settled);
-        let pick = |opening: bool| {
-            let of = |(_, fate): &(&Key, &Fate)| (**fate == Fate::Opening) == opening;
-            keys.iter().zip(&settled.fate).filter(of).map(|(&key, _)| key).collect::<Vec<Key>>()
-        };
-        let (opening, kept) = (pick(true), pick(false));
+        self.carry(keys, &settled.forces);
+        let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
+        let opening: Vec<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
+        let (stuck, opening): (Vec<Key>, Vec<Key>) = opening.into_iter().partition(|&key| self.instant.is_stuck(key));
         for &key in &opening {
             self.release(model, log, key);
             self.part(model, key, 0.0);
         }
         if !opening.is_empty() {
-            return Ok(Some(kept));
+            let kept = keys.iter().filter(|key| opening.binary_search(key).is_err());
+            return Ok(Some(kept.copied().collect()));
+        }
+        let pause = if stuck.is_empty() { f64::INFINITY } else { self.pause(&bodies) };
+        for key in stuck {
+            self.rests.hold_until(key, self.now + pause);
         }
         if settled.curved {
-            self.follow(&spheres, Curve::new(model, bodies, contacts, self.now));
+            self.follow(&spheres, Curve::new(model, bodies, contacts, self.now).cut(pause));
         } else {
-            let end = self.parts_end(model, &spheres, &contacts).min(self.bounces_end(keys));
+            let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
             self.rests.found(Island { spheres, end, curve: None }, self.now);
         }
         Ok(None)
+    }
+
+    /// How long contacts that keep being released and found again at one instant are held all the same, s: a moment in
+    /// the time that these spheres would take to fall by their radius.
+    fn pause(&self, bodies: &[Body]) -> f64 {
+        let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
+        let squared = bodies.iter().map(of).fold(1.0, f64::min);
+        (PAUSE * squared.sqrt()).max(ZENO * self.tick())
     }
 
     /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
@@ -194,9 +210,9 @@ impl Exact {
     /// Writes a `rest` row for every contact that begins to carry a load.
     fn announce(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
-            let mut meeting = self.seen(model, key);
+            let mut meeting = self.seen(model, key, self.now);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
-            if settled.fate[index] != Fate::Loaded || held.announced || held.bounces_until > self.now {
+            if settled.fate[index] != Fate::Loaded || held.announced || held.settles_at > self.now {
                 continue;
             }
             held.announced = true;
@@ -221,9 +237,9 @@ impl Exact {
         self.now + first
     }
 
-    /// When the first bounces of these contacts that still go on come to their end, s.
-    fn bounces_end(&self, keys: &[Key]) -> f64 {
-        let ends = keys.iter().filter_map(|key| self.rests.held.get(key)).map(|held| held.bounces_until);
+    /// When the first of these contacts asks for its island to be settled again, s.
+    fn settling_time(&self, keys: &[Key]) -> f64 {
+        let ends = keys.iter().filter_map(|key| self.rests.held.get(key)).map(|held| held.settles_at);
         ends.filter(|&end| end > self.now).fold(f64::INFINITY, f64::min)
     }
 

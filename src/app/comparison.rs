@@ -1,0 +1,90 @@
+//! The exact run beside the one shown, followed from the reports of both.
+
+use std::sync::Arc;
+
+use super::Current;
+use crate::{
+    snapshot::{Ghost, Stage, Trade},
+    view,
+    worker::{Beside, Notify, Report},
+};
+
+/// A comparison under way.
+pub(super) struct Comparison {
+    /// Whose runs are compared: the last reports of another scene may still be on their way.
+    stage: Arc<Stage>,
+    beside: Beside,
+    ghost: Arc<Option<Ghost>>,
+    trade: Trade,
+}
+
+impl Comparison {
+    /// Compares from the latest `report` on; `notify` is called when there is news of the exact run.
+    ///
+    /// # Errors
+    /// If the system has no thread to give.
+    pub(super) fn start(current: &Current, report: &Report, notify: Notify) -> std::io::Result<Comparison> {
+        let (stage, beside) = (Arc::clone(&current.stage), Beside::start(Arc::clone(&current.scene), notify)?);
+        if Arc::ptr_eq(&stage, &report.snapshot.stage) {
+            beside.compare(&report.snapshot);
+        }
+        let trade = Trade::new(stage.duration);
+        Ok(Comparison { stage, beside, ghost: Arc::new(None), trade })
+    }
+
+    /// Takes note of what both threads have reported since `before`.
+    pub(super) fn follow(&mut self, before: &Report, after: &Report) {
+        let (from, to) = (&before.snapshot, &after.snapshot);
+        if Arc::ptr_eq(&self.stage, &to.stage) {
+            match to.t < from.t || !Arc::ptr_eq(&from.stage, &to.stage) {
+                true => self.trade = Trade::new(to.stage.duration),
+                false => self.add_costs(before, after),
+            }
+            if !Arc::ptr_eq(from, to) {
+                self.beside.compare(to);
+            }
+        }
+        let ghost = self.beside.take();
+        if let (Some(ghost), false) = (&*ghost, Arc::ptr_eq(&ghost, &self.ghost)) {
+            self.add_errors(ghost);
+        }
+        self.ghost = ghost;
+    }
+
+    fn add_costs(&mut self, before: &Report, after: &Report) {
+        let (from, to) = (&before.snapshot, &after.snapshot);
+        let frames = to.tallies.frames.saturating_sub(from.tallies.frames);
+        if frames == 0 {
+            return;
+        }
+        let evaluations = to.tallies.evaluations.saturating_sub(from.tallies.evaluations);
+        self.trade.evaluations.add(to.t, evaluations as f64 / frames as f64);
+        self.trade.deepest_degree.add(to.t, to.tallies.deepest_degree);
+        self.trade.cost.add(to.t, 1e3 * (after.cpu - before.cpu).max(0.0) / (to.t - from.t));
+    }
+
+    fn add_errors(&mut self, ghost: &Ghost) {
+        if ghost.stall.is_some() {
+            return;
+        }
+        self.trade.energy_error.add(ghost.t, ghost.energy_error);
+        if let (Some((_, deviation)), false) = (ghost.worst(), ghost.is_past_horizon()) {
+            self.trade.deviation.add(ghost.t, deviation);
+        }
+    }
+
+    /// Whether the exact run has said all it can of the run at time `t`, s.
+    pub(super) fn is_settled(&self, t: f64) -> bool {
+        self.ghost().is_some_and(|ghost| ghost.t == t || ghost.stall.is_some())
+    }
+
+    /// Where the exact run is, once it has said so.
+    pub(super) fn ghost(&self) -> Option<&Ghost> {
+        (*self.ghost).as_ref()
+    }
+
+    /// As it is drawn.
+    pub(super) fn shown(&self) -> view::Beside<'_> {
+        view::Beside { ghost: self.ghost(), trade: &self.trade }
+    }
+}

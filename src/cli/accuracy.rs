@@ -1,0 +1,56 @@
+//! `--accuracy E`: what to solve with, chosen by trying, and said.
+
+use std::io::{self, IsTerminal, Write};
+
+use super::arguments::Solver;
+use super::failure::Failure;
+use super::signals::Signals;
+use crate::measure::{Miss, choose};
+use crate::scene::{Scene, Settings};
+
+/// What the command line asks to solve a scene with, up to `until` (s), and what there is to say about it. Without
+/// `signals` they do what they always do: there is nothing to put away yet.
+///
+/// # Errors
+/// If an accuracy is asked for that nothing meets, or a signal arrives.
+pub(super) fn settings(
+    solver: &Solver,
+    scene: &Scene,
+    until: f64,
+    signals: Option<&Signals>,
+) -> Result<(Settings, Option<String>), Failure> {
+    let plain = solver.over(scene.solver);
+    let Some((error, methods)) = solver.accuracy() else { return Ok((plain, None)) };
+    let waiting = Waiting::begin(error);
+    let undisturbed = || signals.map_or(Ok(()), Signals::check);
+    let found = choose(scene, (error, until), &methods, plain, &|| undisturbed().is_ok());
+    drop(waiting);
+    match found {
+        Ok(choice) => Ok((choice.settings, Some(choice.sentence()))),
+        Err(Miss::Nothing(sentence)) => Err(Failure::Failed(sentence)),
+        Err(Miss::Interrupted) => Err(undisturbed().err().unwrap_or(Failure::Told)),
+    }
+}
+
+/// A line on the terminal as long as the search takes.
+struct Waiting {
+    shown: bool,
+}
+
+impl Waiting {
+    fn begin(error: f64) -> Waiting {
+        let shown = io::stderr().is_terminal() && std::env::var_os("TERM").is_some_and(|term| term != "dumb");
+        if shown {
+            let _ = write!(io::stderr(), "carom: trying what meets {error:e} m, a few seconds …"); // only a courtesy
+        }
+        Waiting { shown }
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        if self.shown {
+            let _ = write!(io::stderr(), "\r\x1b[K"); // back to the line's start, and erase it
+        }
+    }
+}

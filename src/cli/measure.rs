@@ -1,0 +1,145 @@
+//! `carom measure SCENE…`: what accuracy costs, as a table, a chart, CSV and a figure.
+
+use std::fs::File;
+use std::io::{self, IsTerminal, Write};
+use std::thread;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::arguments::Measure;
+use super::failure::{Failure, note, printable};
+use super::output::{Output, Target};
+use super::signals::Signals;
+use crate::export::{Format, Table, TradeRow, read_trade};
+use crate::measure::{self, Advance, Ladder, Measured, Placed, Shard, Sweep, Yardstick};
+use crate::physics::Method;
+use crate::scene;
+
+/// Steps of the progress bar: finer than any terminal shows.
+const STEPS: f64 = 1000.0;
+
+/// Time between two pictures of the progress bar: it counts seconds.
+const TICK: Duration = Duration::from_millis(250);
+
+pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
+    refuse_same_target(arguments)?;
+    let files = Files::open(arguments)?;
+    if !arguments.merge.is_empty() {
+        let rows = measure::merge(read_all(&arguments.merge)?).map_err(Failure::Failed)?;
+        return files.write(&rows, &allowed(arguments), &[]);
+    }
+    let measured = sweep(arguments, signals)?;
+    files.write(&measured.rows, &allowed(arguments), &measured.yardsticks)?;
+    let interrupted = signals.check();
+    if interrupted.is_err() {
+        note(&format!("interrupted: {} of {} settings are done and kept", measured.rows.len(), measured.wanted));
+    }
+    interrupted
+}
+
+/// Both into one stream would be a file that nobody can read.
+fn refuse_same_target(arguments: &Measure) -> Result<(), Failure> {
+    let (Some(csv), Some(svg)) = (&arguments.csv, &arguments.svg) else { return Ok(()) };
+    if csv.place()? != svg.place()? {
+        return Ok(());
+    }
+    let name = if *csv == Target::Stdout { "standard output" } else { "the same file" };
+    Err(Failure::Usage(format!("--csv and --svg cannot both go to {name}; give each its own")))
+}
+
+/// Who competes on the front: `exact`, the yardstick, only if it was asked for.
+fn allowed(arguments: &Measure) -> Vec<Method> {
+    match &arguments.methods {
+        listed if !listed.is_empty() => listed.clone(),
+        _ => Method::ALL.iter().copied().filter(|method| *method != Method::Exact).collect(),
+    }
+}
+
+fn ladder(arguments: &Measure) -> Ladder {
+    let listed = |list: &Vec<f64>| (!list.is_empty()).then(|| list.clone());
+    let all = || Method::ALL.to_vec();
+    Ladder {
+        methods: if arguments.methods.is_empty() { all() } else { arguments.methods.clone() },
+        dt: listed(&arguments.dt),
+        tolerances: listed(&arguments.tolerances),
+    }
+}
+
+fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
+    let opened = arguments.scenes.iter().map(|name| scene::open(name).map(|opened| (opened.key, opened.scene)));
+    let scenes = opened.collect::<Result<Vec<_>, _>>().map_err(|error| Failure::Failed(error.to_string()))?;
+    let sweep = Sweep::new(scenes, ladder(arguments), arguments.shard.unwrap_or(Shard::WHOLE));
+    let sweep = sweep.map_err(Failure::Failed)?;
+    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    let bar = progress_bar(sweep.wanted());
+    let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
+        bar.set_message(done.to_string());
+        bar.set_position((share * STEPS) as u64);
+    });
+    bar.finish_and_clear();
+    Ok(measured)
+}
+
+/// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
+fn progress_bar(wanted: usize) -> ProgressBar {
+    let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
+    if dumb || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let template =
+        format!("{{bar:32}} {{percent:>3}} %  {{msg}} of {wanted} settings, {{elapsed}} elapsed, {{eta}} to go");
+    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), ProgressDrawTarget::stderr());
+    let bar = ProgressStyle::with_template(&template).map(|style| bar.clone().with_style(style)).unwrap_or(bar);
+    bar.set_message("0");
+    bar.enable_steady_tick(TICK); // the time left goes on while a setting is measured
+    bar
+}
+
+/// Where the results go, opened before any work is done for nothing.
+struct Files {
+    csv: Option<Output>,
+    svg: Option<Output>,
+    /// Whether the report has standard output for itself.
+    report_on_stdout: bool,
+}
+
+impl Files {
+    fn open(arguments: &Measure) -> Result<Files, Failure> {
+        let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
+        let taken = [&arguments.csv, &arguments.svg].iter().any(|target| **target == Some(Target::Stdout));
+        Ok(Files { csv: open(&arguments.csv)?, svg: open(&arguments.svg)?, report_on_stdout: !taken })
+    }
+
+    fn write(self, rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick]) -> Result<(), Failure> {
+        if let Some(csv) = self.csv {
+            let mut table = Table::new::<TradeRow>(Format::Csv, csv)?;
+            rows.iter().try_for_each(|row| table.write(row))?;
+            table.finish()?.finish()?;
+        }
+        if let Some(mut svg) = self.svg {
+            svg.write_all(measure::figure(rows, allowed).as_bytes())?;
+            svg.finish()?;
+        }
+        let text = measure::report(rows, allowed, yardsticks);
+        if self.report_on_stdout {
+            let mut out = Output::stdout();
+            out.write_all(text.as_bytes())?;
+            return out.finish();
+        }
+        let _ = io::stderr().write_all(text.as_bytes()); // if nobody can read it, the results still stand
+        Ok(())
+    }
+}
+
+/// The rows of all files, each with its place.
+fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
+    let mut all = Vec::new();
+    for path in paths {
+        let name = printable(&path.display().to_string());
+        let rows = File::open(path).map_err(|error| format!(" {error}")).and_then(read_trade);
+        let rows = rows.map_err(|error| Failure::Failed(format!("{name}:{error}")))?;
+        all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
+    }
+    Ok(all)
+}

@@ -1,0 +1,162 @@
+//! Rows of the trade of accuracy for time: written by `measure --csv`, and read back to be merged.
+
+use std::io;
+
+use serde::{Deserialize, Serialize};
+
+use super::Row;
+
+/// One setting on one scene. An empty cell: the method has no such knob, or there is no such figure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TradeRow {
+    /// The scene's key.
+    pub scene: String,
+    /// The method's name.
+    pub method: String,
+    /// Longest step, s.
+    pub dt: Option<f64>,
+    /// Intersection tolerance, a degree.
+    pub tolerance: Option<f64>,
+    /// How far the run got, s: the scene's duration, or where it stalled.
+    pub until: f64,
+    /// Up to when positions mean something, s; empty if they do up to the end.
+    pub horizon: Option<f64>,
+    /// Largest |x − x_ref| of any sphere at any instant up to the horizon, m.
+    pub position_error: Option<f64>,
+    /// Largest time error of the reference's first 10 impacts, s; empty if the run lacks one of them.
+    pub impact_time_error: Option<f64>,
+    /// How many impacts come in the reference's order, from the first on.
+    pub common_events: u64,
+    /// |E − E_ref| over the reference's largest |E|.
+    pub energy_error: Option<f64>,
+    /// Deepest intersection degree at the end of any frame.
+    pub deepest_degree: f64,
+    /// Impacts up to `until`.
+    pub impacts: u64,
+    /// Degree evaluations.
+    pub evaluations: u64,
+    /// Thread CPU time per simulated second, s; the best of several.
+    pub cpu_per_s: Option<f64>,
+    /// (worst − best) / best of these.
+    pub cpu_spread: Option<f64>,
+    /// What speaks against these figures; empty if nothing does.
+    pub note: String,
+}
+
+impl Row for TradeRow {
+    const COLUMNS: &'static [&'static str] = &[
+        "scene",
+        "method",
+        "dt",
+        "tolerance",
+        "until",
+        "horizon",
+        "position_error",
+        "impact_time_error",
+        "common_events",
+        "energy_error",
+        "deepest_degree",
+        "impacts",
+        "evaluations",
+        "cpu_per_s",
+        "cpu_spread",
+        "note",
+    ];
+}
+
+/// Reads a file of trade rows, each with its line number.
+///
+/// # Errors
+/// `line: what is wrong there`: a reader that fails, other columns, a cell that is no number.
+pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, String> {
+    let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(reader);
+    let mut records = csv.records();
+    let header = records.next().ok_or("1: the file is empty; a measure's CSV begins with its column names")?;
+    let header = header.map_err(|error| explain(&error))?;
+    if !header.iter().eq(TradeRow::COLUMNS.iter().copied()) {
+        return Err(format!("1: these are not the columns of a measure; wanted are {}", TradeRow::COLUMNS.join(",")));
+    }
+    records.map(|record| read_row(&record.map_err(|error| explain(&error))?)).collect()
+}
+
+fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
+    let line = record.position().map_or(0, csv::Position::line);
+    let (found, wanted) = (record.len(), TradeRow::COLUMNS.len());
+    if found != wanted {
+        return Err(format!("{line}: {found} cells, where {wanted} are wanted"));
+    }
+    let row = record.deserialize(None).map_err(|error| format!("{line}: {}", cell(&error, record)))?;
+    Ok((line, row))
+}
+
+/// Which cell of a row is wrong, and what stands in it.
+fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
+    let csv::ErrorKind::Deserialize { err, .. } = error.kind() else { return error.to_string() };
+    let Some(index) = err.field().and_then(|index| usize::try_from(index).ok()) else { return err.to_string() };
+    let column = TradeRow::COLUMNS.get(index).copied().unwrap_or("a cell");
+    format!("{column} is {:?}; wanted is a number", record.get(index).unwrap_or(""))
+}
+
+fn explain(error: &csv::Error) -> String {
+    match (error.position(), error.kind()) {
+        (_, csv::ErrorKind::Io(error)) => format!(" {error}"),
+        (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("{}: this is no text in UTF-8", place.line()),
+        _ => format!(" {error}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Format, Table};
+    use super::*;
+
+    fn row() -> TradeRow {
+        TradeRow {
+            scene: "a, \"b\"".into(),
+            method: "paper".into(),
+            dt: Some(0.1),
+            tolerance: None,
+            until: 20.0,
+            horizon: None,
+            position_error: Some(5e-324),
+            impact_time_error: None,
+            common_events: 3,
+            energy_error: Some(0.30000000000000004),
+            deepest_degree: -0.0,
+            impacts: 22,
+            evaluations: u64::MAX,
+            cpu_per_s: Some(1e300),
+            cpu_spread: None,
+            note: "stalled at 1 s".into(),
+        }
+    }
+
+    fn written(rows: &[TradeRow]) -> String {
+        let mut table = Table::new::<TradeRow>(Format::Csv, Vec::new()).expect("memory takes every byte");
+        rows.iter().for_each(|row| table.write(row).expect("memory takes every byte"));
+        String::from_utf8(table.finish().expect("memory takes every byte")).expect("text")
+    }
+
+    #[test]
+    fn what_is_written_reads_back_to_the_same_row() {
+        let text = written(&[row(), TradeRow { dt: None, note: String::new(), ..row() }]);
+        let back = read_trade(text.as_bytes()).expect("our own file");
+        assert_eq!(back[0], (2, row()));
+        assert_eq!((back[1].0, back[1].1.dt), (3, None));
+    }
+
+    #[test]
+    fn a_broken_file_is_refused_with_its_line() {
+        let good = written(&[row()]);
+        for (text, words) in [
+            (String::new(), &["1: ", "empty"][..]),
+            ("time,sphere\n1,2\n".into(), &["1: ", "columns"]),
+            (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
+            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
+            (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
+        ] {
+            let error = read_trade(text.as_bytes()).expect_err(&text);
+            assert!(words.iter().all(|word| error.contains(word)), "{error}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! What a setting costs: processor time of its thread per simulated second, the best of several runs.
+
+use super::clock::{Passed, Watch, resolution};
+use super::walk::run_through;
+use super::{GoOn, Interrupted};
+use crate::physics::{Scene, Settings, Simulation};
+
+/// One timing lasts at least so long, s: shorter runs are repeated, so that the clock's own cost is lost in them.
+const SHORTEST: f64 = 2e-3;
+
+/// How often a run is repeated at most within one timing.
+const MOST_REPEATS: u64 = 1000;
+
+/// Timings of a run: (up to this many seconds each, so many); of a longer one, one. Where they are cheap they are many,
+/// because one in a handful meets no disturbance only on an idle machine.
+const TIMINGS: [(f64, usize); 3] = [(0.01, 15), (0.2, 5), (2.0, 3)];
+
+/// A timing below so many times the clock's resolution says little.
+const COARSE: f64 = 100.0;
+
+/// A spread above this is wide: the best may still be too slow.
+const WIDE: f64 = 0.25;
+
+/// Wall time beyond this many times the processor time: others had the machine.
+const BUSY: f64 = 1.5;
+
+/// Wall time that a thread may wait without the machine being called busy, s: a turn of the scheduler.
+const WAIT: f64 = 2e-3;
+
+/// What a run costs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cost {
+    /// Thread CPU time per simulated second, s: the best of several timings.
+    pub cpu_per_s: f64,
+    /// (worst − best) / best; none if it was timed once.
+    pub spread: Option<f64>,
+    /// What speaks against these figures, a phrase each.
+    pub doubts: Vec<&'static str>,
+}
+
+/// Times a setting on a scene, up to `until` (s) or where it stalls. Setting the scene up does not count, nor is
+/// anything recorded or read.
+///
+/// # Errors
+/// If `go_on` says no.
+pub fn cost(scene: &Scene, settings: Settings, until: f64, go_on: GoOn) -> Result<Cost, Interrupted> {
+    let fresh = Simulation::new(scene, settings);
+    let (first, simulated) = time(&fresh, until, 1, go_on)?;
+    let repeats = ((SHORTEST / first.cpu.max(1e-9)) as u64).clamp(1, MOST_REPEATS);
+    let count = TIMINGS.iter().find(|(limit, _)| first.cpu <= *limit).map_or(1, |(_, count)| *count);
+    let mut timings = if repeats == 1 { vec![first] } else { Vec::new() };
+    while timings.len() < count {
+        timings.push(time(&fresh, until, repeats, go_on)?.0);
+    }
+    Ok(summary(&timings, repeats as f64 * simulated))
+}
+
+/// The time of so many runs in a row, and the seconds that one of them simulated.
+fn time(fresh: &Simulation, until: f64, repeats: u64, go_on: GoOn) -> Result<(Passed, f64), Interrupted> {
+    let (mut total, mut simulated) = (Passed::default(), 0.0);
+    for _ in 0..repeats {
+        let mut simulation = fresh.clone();
+        let watch = Watch::start();
+        run_through(&mut simulation, until, go_on)?;
+        total += watch.read();
+        simulated = simulation.time().min(until);
+    }
+    Ok((total, simulated))
+}
+
+/// `simulated`: seconds simulated in each timing.
+fn summary(timings: &[Passed], simulated: f64) -> Cost {
+    let cpu = || timings.iter().map(|passed| passed.cpu);
+    let (best, worst) = (cpu().fold(f64::INFINITY, f64::min), cpu().fold(0.0, f64::max));
+    let spread = (timings.len() > 1 && best > 0.0).then(|| (worst - best) / best);
+    let busy = timings.iter().all(|passed| passed.wall > BUSY * passed.cpu + WAIT);
+    let doubts = [
+        (best < COARSE * resolution(), "timer too coarse"),
+        (spread.is_none(), "timed once"),
+        (spread.is_some_and(|spread| spread > WIDE), "timings spread widely"),
+        (busy, "machine busy"),
+    ];
+    let doubts = doubts.into_iter().filter(|(holds, _)| *holds).map(|(_, phrase)| phrase).collect();
+    Cost { cpu_per_s: best / simulated.max(f64::MIN_POSITIVE), spread, doubts }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn passed(cpu: f64, wall: f64) -> Passed {
+        Passed { cpu, wall }
+    }
+
+    #[test]
+    fn the_best_timing_counts_and_the_spread_is_shown() {
+        let cost = summary(&[passed(0.5, 0.5), passed(0.25, 0.25), passed(0.375, 0.375)], 2.0);
+        assert_eq!((cost.cpu_per_s, cost.spread), (0.125, Some(1.0)));
+        assert_eq!(cost.doubts, ["timings spread widely"]);
+    }
+
+    #[test]
+    fn a_busy_machine_and_a_coarse_timer_are_told() {
+        assert_eq!(summary(&[passed(0.5, 1.0), passed(0.5, 1.0)], 1.0).doubts, ["machine busy"]);
+        assert_eq!(summary(&[passed(0.5, 1.0), passed(0.5, 0.5)], 1.0).doubts, [""; 0], "one timing was undisturbed");
+        assert_eq!(summary(&[passed(0.5, 0.5)], 1.0).doubts, ["timed once"]);
+        let instant = summary(&[passed(0.0, 0.0), passed(0.0, 0.0)], 1.0);
+        assert!(instant.doubts.contains(&"timer too coarse") && instant.cpu_per_s == 0.0, "{instant:?}");
+    }
+}

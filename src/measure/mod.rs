@@ -1,0 +1,71 @@
+//! Runs without a screen that measure: how far a method is from the truth, and what it costs.
+//!
+//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*, the time until a
+//! displacement of 1e-12 m has grown by 1e6: beyond it positions mean nothing. The cost is the processor time of one
+//! thread per simulated second, and the work counted.
+//!
+//! For others to build on:
+//! - [`Deviation::between`] two lists of positions: the largest distance and whose it is. What a live panel shows.
+//! - [`Reference::of`] a scene: an `exact` run kept at fixed [`Instants`], its impacts, and its [`Horizon`];
+//!   [`Reference::meaningful`] says until when positions can be compared.
+//! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
+//! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
+//! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
+//!
+//! Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it says no.
+//! Everything but times repeats to the bit.
+//!
+//! | file | owns |
+//! |---|---|
+//! | `walk` | a run read at fixed instants |
+//! | `reference`, `horizon`, `growth` | the yardstick, and until when it holds |
+//! | `deviation` | how far one run is from another |
+//! | `clock`, `cost` | processor time; the only clocks |
+//! | `ladder`, `trade` | which settings are tried, and a row of each |
+//! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
+//! | `front` | which settings are worth their time |
+//! | `accuracy` | the cheapest setting that meets an error |
+//! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
+//! | `verify` | known results of physics and mathematics, measured here |
+
+mod accuracy;
+mod chart;
+mod clock;
+mod cost;
+mod deviation;
+mod figure;
+mod front;
+mod growth;
+mod horizon;
+mod ladder;
+mod reference;
+mod report;
+mod scale;
+mod shard;
+mod sweep;
+mod trade;
+pub mod verify;
+mod walk;
+
+pub use accuracy::{Choice, Miss, Tried, choose};
+pub use clock::thread_cpu;
+pub use cost::{Cost, cost};
+pub use deviation::{Deviation, common_impacts, impact_time_error};
+pub use figure::figure;
+pub use front::{Cheapest, cheapest, front};
+pub use growth::Growth;
+pub use horizon::Horizon;
+pub use ladder::{DT, Ladder, Rung, TOLERANCES};
+pub use reference::Reference;
+pub use report::report;
+pub use shard::{Placed, Shard, merge};
+pub use sweep::{Advance, Measured, Sweep, Yardstick};
+pub use trade::{Errors, Subject, errors};
+pub use walk::{Budget, Cut, Impact, Instants, Walk, walk};
+
+/// Asked every few milliseconds whether to go on; from several threads at once.
+pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// A [`GoOn`] said no: there is no result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Interrupted;

@@ -1,0 +1,181 @@
+//! What a sweep found, in words, a table and a chart, for a terminal of 80 columns.
+
+use std::fmt::Write;
+
+use super::chart::chart;
+use super::front::{cheapest, front};
+use super::sweep::Yardstick;
+use super::trade::STALLED;
+use crate::export::TradeRow;
+use crate::physics::Method;
+
+/// Growth from which positions are worse than rounding by so much that a reader should know.
+const GROWN: f64 = 100.0;
+
+/// The report on all rows, a section by scene. `allowed` methods compete on the front.
+pub fn report(rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick]) -> String {
+    let sections = rows.chunk_by(|a, b| a.scene == b.scene).map(|of_scene| {
+        let yardstick = yardsticks.iter().find(|yardstick| yardstick.scene == of_scene[0].scene);
+        section(of_scene, allowed, yardstick)
+    });
+    sections.collect::<Vec<_>>().join("\n")
+}
+
+fn section(rows: &[TradeRow], allowed: &[Method], yardstick: Option<&Yardstick>) -> String {
+    let best = front(rows, allowed);
+    let mut text = heading(rows, yardstick) + "\n\n" + &table(rows, &best) + "\n";
+    let chart = chart(rows, allowed);
+    if !chart.is_empty() {
+        text += &chart;
+        text.push('\n');
+    }
+    text += &sentences(rows, &best);
+    text += &price(rows, &best, yardstick);
+    text
+}
+
+fn heading(rows: &[TradeRow], yardstick: Option<&Yardstick>) -> String {
+    let until = rows.iter().map(|row| row.until).fold(0.0, f64::max);
+    let growth = yardstick.map(|yardstick| yardstick.growth).filter(|growth| *growth > GROWN);
+    let growth = growth.map(|growth| format!(" (growth {growth:.0e})")).unwrap_or_default();
+    let horizon = match rows[0].horizon {
+        Some(time) => format!("horizon {} s: beyond it positions mean nothing", plain(time)),
+        None => format!("horizon none{growth}: positions mean something to the end"),
+    };
+    format!("{}: {} s; {horizon}", rows[0].scene, plain(until))
+}
+
+/// Errors in m and s, energy and depth as parts; gaps computed, CPU time per simulated second and its spread.
+const COLUMNS: &str = "  method dt   tol   error m delay s  common  energy depth  gaps   cpu/s   ±";
+
+/// A line for each row, `*` on the front; letters refer to the notes below.
+fn table(rows: &[TradeRow], best: &[usize]) -> String {
+    let mut notes: Vec<String> = Vec::new();
+    let mut text = String::from(COLUMNS) + "\n";
+    for (index, row) in rows.iter().enumerate() {
+        let letters: String =
+            row.note.split("; ").filter(|note| !note.is_empty()).map(|n| letter(n, &mut notes)).collect();
+        let mark = if best.contains(&index) { '*' } else { ' ' };
+        text += format!("{mark} {} {letters}", cells(row)).trim_end();
+        text.push('\n');
+    }
+    for (index, note) in notes.iter().enumerate() {
+        let _ = writeln!(text, "  {} {note}", char::from(b'a' + index as u8 % 26));
+    }
+    text
+}
+
+fn cells(row: &TradeRow) -> String {
+    let knob = |value: Option<f64>| value.map(|value| format!("{value:e}")).unwrap_or_default();
+    let figure = |value: Option<f64>| value.map_or("-".into(), |value| short(value, 1));
+    format!(
+        "{:6} {:4} {:5} {:>7} {:>7} {:>7} {:>7} {:>5} {:>5} {:>7} {:>3}",
+        row.method,
+        knob(row.dt),
+        knob(row.tolerance),
+        figure(row.position_error),
+        figure(row.impact_time_error),
+        format!("{}/{}", row.common_events, row.impacts),
+        figure(row.energy_error),
+        short(row.deepest_degree, 0),
+        short(row.evaluations as f64, 1),
+        row.cpu_per_s.map_or("-".into(), duration),
+        row.cpu_spread.map(percent).unwrap_or_default(),
+    )
+}
+
+/// The letter of a note; notes that differ in their figures only share one.
+fn letter(note: &str, notes: &mut Vec<String>) -> char {
+    let note = if note.starts_with(STALLED) { "stalled before the end; when and why: --csv" } else { note };
+    let index = notes.iter().position(|known| known == note).unwrap_or_else(|| {
+        notes.push(note.into());
+        notes.len() - 1
+    });
+    char::from(b'a' + index as u8 % 26)
+}
+
+/// 0, or with so many digits after the first: 4.9e-2.
+pub(super) fn short(value: f64, digits: usize) -> String {
+    if value == 0.0 { "0".into() } else { format!("{value:.digits$e}") }
+}
+
+fn percent(part: f64) -> String {
+    if part < 0.995 { format!("{:.0}%", part * 100.0) } else { format!("{:.0}×", part + 1.0) }
+}
+
+/// A time with three digits and its unit.
+pub(super) fn duration(seconds: f64) -> String {
+    let (value, unit) = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")]
+        .into_iter()
+        .find(|(size, _)| seconds >= *size)
+        .map_or((seconds * 1e9, "ns"), |(size, unit)| (seconds / size, unit));
+    let digits = if value < 10.0 { 2 } else { usize::from(value < 100.0) };
+    format!("{value:.digits$} {unit}")
+}
+
+/// A time in s with at most four decimals.
+pub(super) fn plain(seconds: f64) -> String {
+    let text = format!("{seconds:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').into()
+}
+
+/// A setting in words.
+pub(super) fn setting(method: &str, dt: Option<f64>, tolerance: Option<f64>) -> String {
+    let dt = dt.map(|dt| format!(", dt {dt:e} s")).unwrap_or_default();
+    let tolerance = tolerance.map(|tolerance| format!(", tolerance {tolerance:e}")).unwrap_or_default();
+    format!("{method}{dt}{tolerance}")
+}
+
+/// The cheapest setting for each decade of error.
+fn sentences(rows: &[TradeRow], best: &[usize]) -> String {
+    let mut text = String::new();
+    for found in cheapest(rows, best) {
+        let row = &rows[found.row];
+        let range = match (found.from, found.to) {
+            (from, to) if from == to => format!("an error up to {to:e} m"),
+            (from, to) => format!("errors of {from:e} down to {to:e} m"),
+        };
+        let (cost, error) = (row.cpu_per_s.map(duration).unwrap_or_default(), row.position_error.unwrap_or(0.0));
+        let _ = writeln!(
+            text,
+            "Cheapest for {range}: {};\n  {cost} per simulated second, error {} m.",
+            setting(&row.method, row.dt, row.tolerance),
+            short(error, 1),
+        );
+    }
+    if text.is_empty() { "No setting that may compete reached the end within 1 m.\n".into() } else { text }
+}
+
+/// What the yardstick costs, and whether anything on the front is cheaper.
+fn price(rows: &[TradeRow], best: &[usize], yardstick: Option<&Yardstick>) -> String {
+    let measured = rows.iter().find(|row| row.method == Method::Exact.name()).and_then(|row| row.cpu_per_s);
+    let (name, price) = match (yardstick, measured) {
+        (Some(yardstick), _) => (yardstick.method.name(), yardstick.cpu_per_s),
+        (None, Some(price)) => (Method::Exact.name(), price),
+        (None, None) => return String::new(),
+    };
+    let cheaper = best.iter().filter(|&&row| rows[row].cpu_per_s.is_some_and(|cost| cost < price)).count();
+    let compared = match (cheaper, best.is_empty()) {
+        (_, true) => String::new(),
+        (0, _) => ",\n  less than any setting on the front".into(),
+        (1, _) => ";\n  one setting on the front costs less".into(),
+        (count, _) => format!(";\n  {count} settings on the front cost less"),
+    };
+    format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", duration(price))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_have_three_digits_and_a_unit() {
+        let words = [2.0, 0.0123, 4.5e-6, 1.5e-8, 123e-6, 0.0].map(duration);
+        assert_eq!(words, ["2.00 s", "12.3 ms", "4.50 µs", "15.0 ns", "123 µs", "0.00 ns"]);
+    }
+
+    #[test]
+    fn spreads_are_percents_up_to_twice_and_then_factors() {
+        assert_eq!([0.034, 0.99, 1.0, 4.2].map(percent), ["3%", "99%", "2×", "5×"]);
+    }
+}

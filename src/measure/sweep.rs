@@ -1,0 +1,192 @@
+//! Many settings on many scenes, side by side, a thread each.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use super::cost::cost;
+use super::ladder::{Ladder, Rung};
+use super::shard::Shard;
+use super::trade::Subject;
+use super::{GoOn, Interrupted};
+use crate::export::TradeRow;
+use crate::physics::{Method, Scene};
+
+/// Weight of a run that takes no steps, in steps: events, set-up and timing.
+const EVENTFUL: f64 = 2e3;
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// Scenes and what to call them, each name once; in the order of their names, so that parts of a sweep merge to
+    /// the whole.
+    scenes: Vec<(String, Scene)>,
+    ladder: Ladder,
+    shard: Shard,
+}
+
+/// What became of a sweep.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    /// The settings that are done, by scene, method, dt, tolerance.
+    pub rows: Vec<TradeRow>,
+    /// How many there were to do.
+    pub wanted: usize,
+    /// What the reference of each scene cost, s of thread CPU per simulated second.
+    pub yardsticks: Vec<Yardstick>,
+}
+
+/// The reference of a scene, and its price.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Yardstick {
+    /// The scene's key.
+    pub scene: String,
+    /// By which method.
+    pub method: Method,
+    /// Thread CPU time per simulated second, s.
+    pub cpu_per_s: f64,
+    /// The largest growth of a displacement up to the horizon or the end.
+    pub growth: f64,
+}
+
+/// What a sweep is doing, for whoever waits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Settings done.
+    pub done: usize,
+    /// Share of the work that is done, 0 to 1, estimated by steps.
+    pub share: f64,
+}
+
+impl Sweep {
+    /// # Errors
+    /// A sentence, if two scenes have one name, so that their rows could not be told apart, or if one lasts 0 s.
+    pub fn new(mut scenes: Vec<(String, Scene)>, ladder: Ladder, shard: Shard) -> Result<Sweep, String> {
+        scenes.sort_by(|a, b| a.0.cmp(&b.0));
+        if let Some((key, _)) = scenes.iter().find(|(_, scene)| scene.duration <= 0.0) {
+            return Err(format!("{key} lasts 0 s; there is nothing to measure"));
+        }
+        match scenes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            Some(pair) => Err(format!("two scenes are called {}; their rows could not be told apart", pair[0].0)),
+            None => Ok(Sweep { scenes, ladder, shard }),
+        }
+    }
+
+    /// The settings of this sweep's shard: (index of the scene, setting).
+    fn tasks(&self) -> Vec<(usize, Rung)> {
+        let rungs = self.ladder.rungs();
+        let all = (0..self.scenes.len()).flat_map(|scene| rungs.iter().map(move |rung| (scene, *rung)));
+        all.enumerate().filter(|(index, _)| self.shard.has(*index)).map(|(_, task)| task).collect()
+    }
+
+    /// How many settings there are to do.
+    pub fn wanted(&self) -> usize {
+        self.tasks().len()
+    }
+
+    /// Measures, with so many threads. What was done when `go_on` said no is kept.
+    pub fn run(&self, jobs: usize, go_on: GoOn, advanced: &(dyn Fn(Advance) + Sync)) -> Measured {
+        let tasks = self.tasks();
+        let needed = |scene: usize| tasks.iter().any(|task| task.0 == scene);
+        let subjects = side_by_side(self.scenes.len(), jobs, |index| {
+            let (key, scene) = &self.scenes[index];
+            needed(index).then(|| self.subject(key, scene, go_on)).transpose()
+        });
+        let subjects: Vec<Option<(Subject, Yardstick)>> = subjects.into_iter().map(Option::flatten).collect();
+        let progress = Progress::of(self, &tasks);
+        let rows = side_by_side(tasks.len(), jobs, |index| {
+            let (scene, rung) = tasks[index];
+            let (subject, _) = subjects[scene].as_ref().ok_or(Interrupted)?;
+            let row = subject.measure(rung, go_on)?;
+            advanced(progress.after(index));
+            Ok(row)
+        });
+        Measured {
+            rows: rows.into_iter().flatten().collect(),
+            wanted: tasks.len(),
+            yardsticks: subjects.into_iter().flatten().map(|(_, yardstick)| yardstick).collect(),
+        }
+    }
+
+    fn subject(&self, key: &str, scene: &Scene, go_on: GoOn) -> Result<(Subject, Yardstick), Interrupted> {
+        let subject = Subject::new(key, scene.clone(), go_on)?;
+        let reference = &subject.reference;
+        let price = cost(scene, reference.settings, reference.end, go_on)?;
+        let yardstick = Yardstick {
+            scene: key.into(),
+            method: reference.settings.method,
+            cpu_per_s: price.cpu_per_s,
+            growth: reference.horizon.growth,
+        };
+        Ok((subject, yardstick))
+    }
+}
+
+/// How far a sweep is, weighed by the steps of each setting.
+struct Progress {
+    weights: Vec<f64>,
+    done: Mutex<(usize, f64)>,
+}
+
+impl Progress {
+    fn of(sweep: &Sweep, tasks: &[(usize, Rung)]) -> Progress {
+        let weight = |(scene, rung): &(usize, Rung)| {
+            let scene = &sweep.scenes[*scene].1;
+            (EVENTFUL + rung.dt.map_or(0.0, |dt| scene.duration / dt)) * scene.spheres.len() as f64
+        };
+        Progress { weights: tasks.iter().map(weight).collect(), done: Mutex::new((0, 0.0)) }
+    }
+
+    /// Where the sweep is after one more setting.
+    fn after(&self, index: usize) -> Advance {
+        let mut done = self.done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        done.0 += 1;
+        done.1 += self.weights[index];
+        Advance { done: done.0, share: done.1 / self.weights.iter().sum::<f64>().max(f64::MIN_POSITIVE) }
+    }
+}
+
+/// The results of tasks 0 to `count` that could be done, by at most so many threads, each taking the next task.
+fn side_by_side<T: Send>(
+    count: usize,
+    jobs: usize,
+    task: impl Fn(usize) -> Result<T, Interrupted> + Sync,
+) -> Vec<Option<T>> {
+    let next = AtomicUsize::new(0);
+    let results: Mutex<Vec<Option<T>>> = Mutex::new((0..count).map(|_| None).collect());
+    thread::scope(|scope| {
+        for _ in 0..jobs.clamp(1, count.max(1)) {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= count {
+                        return;
+                    }
+                    let Ok(result) = task(index) else { return };
+                    results.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(result);
+                }
+            });
+        }
+    });
+    results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_task_is_done_once_whatever_the_number_of_threads() {
+        for jobs in [0, 1, 3, 100] {
+            let done = side_by_side(20, jobs, |index| Ok(index * index));
+            assert!(done.into_iter().enumerate().all(|(index, result)| result == Some(index * index)));
+        }
+        assert_eq!(side_by_side(0, 4, Ok).len(), 0);
+    }
+
+    #[test]
+    fn an_interrupted_task_leaves_the_others_results() {
+        let done = side_by_side(5, 1, |index| if index < 3 { Ok(index) } else { Err(Interrupted) });
+        assert_eq!(done, [Some(0), Some(1), Some(2), None, None]);
+    }
+}

@@ -1,0 +1,166 @@
+//! One setting measured on one scene: its errors against the reference, its cost, and what to doubt.
+
+use std::ops::ControlFlow;
+
+use super::cost::{Cost, cost};
+use super::deviation::{Deviation, common_impacts, impact_time_error};
+use super::ladder::Rung;
+use super::reference::Reference;
+use super::walk::{Budget, Cut, Instants, Walk, walk};
+use super::{GoOn, Interrupted};
+use crate::export::TradeRow;
+use crate::physics::{Method, Scene, Settings, Simulation};
+
+/// A horizon below this part of the run is short: most of the run cannot be judged by positions.
+const SHORT: f64 = 0.5;
+
+/// A reference whose energy changes by less than this part of itself conserves it: then energies can be compared beyond
+/// the horizon.
+const CONSERVED: f64 = 1e-9;
+
+/// The errors of a run against a reference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// How far the run got, s.
+    pub end: f64,
+    /// Largest deviation of positions up to the horizon.
+    pub position: Deviation,
+    /// Up to when positions were compared, s.
+    pub compared: f64,
+    /// Largest time error of the first 10 impacts, s.
+    pub impact_time: Option<f64>,
+    /// Impacts in the reference's order, from the first on.
+    pub common: usize,
+    /// |E − E_ref| over the reference's largest |E|, at the last instant that both reached up to the horizon; up to
+    /// the end where the reference conserves energy. None if the reference has no energy at all.
+    pub energy: Option<f64>,
+    /// The run as read.
+    pub walk: Walk,
+}
+
+/// Runs a setting beside a reference, up to the reference's last instant; given up once the deviation exceeds `limit`
+/// (m). `exact` gets no more than a reference would.
+///
+/// # Errors
+/// If `go_on` says no.
+pub fn errors(
+    scene: &Scene,
+    settings: Settings,
+    reference: &Reference,
+    limit: f64,
+    go_on: GoOn,
+) -> Result<Errors, Interrupted> {
+    let mut simulation = Simulation::new(scene, settings);
+    let model = simulation.model().clone();
+    let (meaningful, judged) = (reference.meaningful(), judged(reference));
+    let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
+    let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
+    let walk = walk(&mut simulation, reference.instants, budget, go_on, |k, state| {
+        if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
+            compared = state.t;
+            let now = Deviation::between(&state.x, wanted);
+            position = if now.distance > position.distance { now } else { position };
+        }
+        if state.t <= judged {
+            energy = (state.energy(&model) - reference.energy(state.t)).abs();
+        }
+        if position.distance > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    let scale = reference.energy_scale();
+    Ok(Errors {
+        end: walk.end,
+        position,
+        compared,
+        impact_time: impact_time_error(&walk.impacts, &reference.impacts),
+        common: common_impacts(&walk.impacts, &reference.impacts),
+        energy: (scale > 0.0).then(|| energy / scale),
+        walk,
+    })
+}
+
+/// Up to when energies are compared, s.
+fn judged(reference: &Reference) -> f64 {
+    let change = (reference.energy(reference.end) - reference.energy(0.0)).abs();
+    if change <= CONSERVED * reference.energy_scale() { reference.end } else { reference.meaningful() }
+}
+
+/// A scene to measure on, and what to call it.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Built-in name or file stem.
+    pub key: String,
+    /// The scene.
+    pub scene: Scene,
+    /// Its reference, up to the scene's duration.
+    pub reference: Reference,
+}
+
+impl Subject {
+    /// The reference run to the scene's duration.
+    ///
+    /// # Errors
+    /// If `go_on` says no.
+    pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
+        let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
+        Ok(Subject { key: key.into(), scene, reference })
+    }
+
+    /// Measures one setting: errors in one run, cost in others.
+    ///
+    /// # Errors
+    /// If `go_on` says no.
+    pub fn measure(&self, rung: Rung, go_on: GoOn) -> Result<TradeRow, Interrupted> {
+        let Instants { until, .. } = self.reference.instants;
+        let settings = rung.settings(until);
+        let errors = errors(&self.scene, settings, &self.reference, f64::INFINITY, go_on)?;
+        let cost = cost(&self.scene, settings, errors.end, go_on)?;
+        let doubts = self.doubts(&errors, &cost);
+        Ok(TradeRow {
+            scene: self.key.clone(),
+            method: rung.method.name().into(),
+            dt: rung.dt,
+            tolerance: rung.tolerance,
+            until: errors.end,
+            horizon: self.reference.horizon.time,
+            position_error: Some(errors.position.distance),
+            impact_time_error: errors.impact_time,
+            common_events: errors.common as u64,
+            energy_error: errors.energy,
+            deepest_degree: errors.walk.tallies.deepest_degree,
+            impacts: errors.walk.impacts.len() as u64,
+            evaluations: errors.walk.tallies.evaluations,
+            cpu_per_s: Some(cost.cpu_per_s),
+            cpu_spread: cost.spread,
+            note: doubts.join("; "),
+        })
+    }
+
+    /// What speaks against the figures of a run, a phrase each: first what repeats, then what the clock says.
+    fn doubts(&self, errors: &Errors, cost: &Cost) -> Vec<String> {
+        let Reference { instants, horizon, doubt, .. } = &self.reference;
+        let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
+        let mut doubts = Vec::new();
+        match &errors.walk.cut {
+            Some(Cut::Stalled(stall)) => doubts.push(format!("{STALLED} {:.4} s ({})", stall.time, stall.kind)),
+            Some(Cut::Spent | Cut::Enough) => doubts.push(format!("{STALLED} {:.4} s (passes its budget)", errors.end)),
+            None => {}
+        }
+        if !doubt.is_empty() {
+            doubts.push(doubt.clone());
+        }
+        if horizon.time.is_some_and(|time| time < SHORT * instants.until) {
+            doubts.push("horizon short".into());
+        }
+        if errors.position.distance > smallest {
+            doubts.push("parted from the reference".into());
+        }
+        if errors.impact_time.is_none() && !self.reference.impacts.is_empty() {
+            doubts.push("lacks one of the first impacts".into());
+        }
+        doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
+        doubts
+    }
+}
+
+/// How the note of a run that did not reach the end begins.
+pub(super) const STALLED: &str = "stalled at";

@@ -1,0 +1,34 @@
+//! The ball that bounces infinitely often in finite time.
+
+use glam::DVec3;
+
+use super::bodies::{G, exact, floor, scene, smooth, sphere};
+use super::{Check, Lab, Row, Trouble};
+use crate::physics::Class;
+
+/// Height of the drop, m: the fall lasts a second.
+const HEIGHT: f64 = 4.9;
+
+/// Radius, m: so small that its rounding hides no hop.
+const RADIUS: f64 = 1e-4;
+
+pub(super) const CHECK: Check = Check {
+    title: "bouncing ball",
+    source: "√(2h/g) (1 + e)/(1 − e), the geometric series of its hops",
+    allowed: "each of some 18/(1 − e) bounces rounds its time once",
+    measure,
+};
+
+fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+    [0.5, 0.8, 0.99].into_iter().map(|e| all_bounces(lab, e)).collect()
+}
+
+fn all_bounces(lab: &Lab, e: f64) -> Result<Row, Trouble> {
+    let ball = sphere(DVec3::Y * (RADIUS + HEIGHT), DVec3::ZERO, RADIUS);
+    let mut run = exact(&scene(DVec3::Y * -G, smooth(e), vec![floor()], vec![ball]));
+    let expected = (2.0 * HEIGHT / G).sqrt() * (1.0 + e) / (1.0 - e);
+    lab.go(&mut run, expected + 1.0)?;
+    let rest = run.take_events().into_iter().find(|event| event.class == Class::Rest);
+    // (1 + e) ulp(t) for each of the bounces is 9e-13 at e = 0.99 if all of them round the same way.
+    Ok(Row::new(format!("bounces end, e = {e}"), "s", [expected, rest.map_or(f64::NAN, |rest| rest.time)], 1e-12))
+}

@@ -1,0 +1,95 @@
+//! Gases of hard spheres in a box of elastic walls, and what is counted in them.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::bodies::EXACT;
+use super::{Lab, Trouble};
+use crate::physics::{Class, Contact, ContactLaw, Kind, Scene, Simulation, State};
+use crate::scene;
+
+/// Radius of every sphere, m.
+pub(super) const RADIUS: f64 = 0.1;
+/// Diameter, m.
+pub(super) const SIGMA: f64 = 2.0 * RADIUS;
+/// Impacts per sphere after which the start is forgotten: Maxwell's speeds need a handful, the density some dozens
+/// for sound to cross the box.
+const WARM_UP: f64 = 40.0;
+
+/// Elastic spheres of these masses (kg) in equal numbers, strewn at rms speed 1 m/s per axis over a cube of which
+/// they fill the share `packing`.
+pub(super) fn gas(packing: f64, count: usize, masses: &[f64]) -> Result<Scene, Trouble> {
+    let half = 0.5 * side(packing, count);
+    let corners = format!("min: (-{half}, -{half}, -{half}), max: ({half}, {half}, {half})");
+    let part = |(seed, mass): (usize, &f64)| {
+        let (count, seed) = (count / masses.len(), seed + 7);
+        format!("Gas({corners}, count: {count}, seed: {seed}, speed: 1, mass: {mass}, radius: {RADIUS})")
+    };
+    let parts: Vec<String> = masses.iter().enumerate().map(part).collect();
+    let text = format!(
+        "Scene(contact: (restitution: 1, tangential: 1, rest_speed: 0), walls: [Room({corners})], spheres: [{}])",
+        parts.join(", ")
+    );
+    scene::parse(&text, "gas").map_err(|error| Trouble::Failed(error.to_string()))
+}
+
+/// Edge of the cube, m; in millimetres, so that a machine's own cube root does not show.
+pub(super) fn side(packing: f64, count: usize) -> f64 {
+    ((count as f64 * PI * SIGMA * SIGMA * SIGMA / (6.0 * packing)).cbrt() * 1000.0).round() / 1000.0
+}
+
+/// The scene at another moment, under another law of contact.
+pub(super) fn continued(scene: &Scene, state: &State, contact: ContactLaw) -> Scene {
+    let mut scene = Scene { contact, ..scene.clone() };
+    for (body, (x, v)) in scene.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
+        (body.x, body.v) = (*x, *v);
+    }
+    scene
+}
+
+/// A gas under way.
+pub(super) struct Gas<'a> {
+    lab: &'a Lab<'a>,
+    pub(super) run: Simulation,
+    pub(super) count: f64,
+}
+
+impl<'a> Gas<'a> {
+    /// From this scene on, in which nothing has happened yet.
+    pub(super) fn new(lab: &'a Lab, scene: &Scene) -> Gas<'a> {
+        Gas { lab, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
+    }
+
+    /// The same, after so many impacts that the start is forgotten.
+    pub(super) fn thermal(lab: &'a Lab, scene: &Scene) -> Result<Gas<'a>, Trouble> {
+        let mut gas = Gas::new(lab, scene);
+        while 2.0 * gas.run.tallies().impacts as f64 / gas.count < WARM_UP {
+            // A tenth of the time in which a sphere of mean speed passes its diameter.
+            gas.go(gas.run.time() + 0.1 * SIGMA)?;
+        }
+        gas.run.record_events(true);
+        gas.run.take_events();
+        Ok(gas)
+    }
+
+    /// The state at `time`, s.
+    pub(super) fn go(&mut self, time: f64) -> Result<State, Trouble> {
+        self.lab.go(&mut self.run, time)
+    }
+
+    /// The impacts of pairs since the last look.
+    pub(super) fn impacts(&mut self) -> impl Iterator<Item = Contact> + use<> {
+        self.run.take_events().into_iter().filter(|row| row.kind == Kind::Pair && row.class == Class::Collide)
+    }
+
+    /// Σ m v² / 3 by sphere, J: kT.
+    pub(super) fn temperature(&self) -> f64 {
+        2.0 * self.run.energy() / (3.0 * self.count)
+    }
+}
+
+/// Whether a point is within a cube about the origin of this half edge, m.
+pub(super) fn inside(x: DVec3, half: f64) -> bool {
+    x.abs().max_element() <= half
+}

@@ -1,0 +1,143 @@
+//! What the last digits of an impact need: bounces that keep their energy, series of them in closed form, approaches that
+//! are but rounding, impulses along normals that are rounded.
+
+use glam::DVec3;
+
+use super::Exact;
+use super::flight::Line;
+use super::impact::Meeting;
+use super::rest::ROUNDING;
+use crate::physics::contact_time::{Part, Path, touch};
+use crate::physics::detector::Detector;
+use crate::physics::{Kind, Model};
+
+/// A sphere this many radii from a face has just touched it.
+const SMALL_GAP: f64 = 1e-9;
+
+/// The change of velocity (m/s) that changes v_n by `change` (m/s): n `change` / n². A wall's normal is off by the same
+/// ulp in every impact, and so would be the energy.
+pub(super) fn along(normal: DVec3, change: f64) -> DVec3 {
+    // n² − 1 to 1e-23: the squares of the multiples of 2⁻²⁶ next to the components, and their sum, are exact
+    let shift = DVec3::splat(1.5 * (1_u64 << 26) as f64);
+    let high = (normal + shift) - shift;
+    let low = normal - high;
+    let excess = (high.length_squared() - 1.0) + (2.0 * high + low).dot(low);
+    normal * (change - change * excess)
+}
+
+/// The first power eᵏ, k ≥ 1, that is at most `bound` < 1, for 0 ≤ e < 1; 0 if `bound` is.
+fn first_power_below(e: f64, bound: f64) -> f64 {
+    if bound <= 0.0 || e <= bound {
+        return if bound <= 0.0 { 0.0 } else { e };
+    }
+    // e, e², e⁴ …: as many as are above the bound, at most 53 + 11 of them
+    let mut squares = vec![e];
+    while let Some(&last) = squares.last().filter(|&&last| last * last > bound) {
+        squares.push(last * last);
+    }
+    let above =
+        squares.iter().rev().fold(1.0, |power, square| if power * square > bound { power * square } else { power });
+    above * e
+}
+
+impl<D: Detector> Exact<D> {
+    /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
+    /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
+    /// 1e-5 of it each, and the time that they take.
+    pub(super) fn keep_energy(&mut self, model: &Model, before: &Line, meeting: &mut Meeting) {
+        let (_, sphere, wall) = meeting.key;
+        if !meeting.flat || meeting.v_n >= 0.0 || meeting.a_n >= 0.0 || before.t == self.now {
+            return;
+        }
+        let (then, w) = (touch(&model.faces[wall], before.x, before.r), before.v.dot(meeting.normal));
+        let square = w * w + 2.0 * meeting.a_n * (meeting.gap - then.gap);
+        let came_from_it = then.part == Part::Face && then.gap.abs() <= SMALL_GAP * before.r;
+        if w <= 0.0 || square <= 0.0 || !came_from_it {
+            return;
+        }
+        let v_n = -square.sqrt();
+        self.push(sphere, along(meeting.normal, v_n - meeting.v_n));
+        meeting.v_n = v_n;
+    }
+
+    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
+    /// flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests. Only where they change nothing but
+    /// the height.
+    pub(super) fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
+        let (law, e) = (&model.law, model.law.wall_restitution);
+        let closed_form = meeting.flat && law.tangential == 1.0 && e < 1.0;
+        if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
+            return 0.0;
+        }
+        let last = first_power_below(e, law.rest_speed / -meeting.v_n);
+        2.0 * -meeting.v_n * e * (1.0 - last) / (-meeting.a_n * (1.0 - e))
+    }
+
+    /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
+    pub(super) fn brushes(&self, meeting: &Meeting) -> bool {
+        let (kind, a, b) = meeting.key;
+        let path = |i: usize| self.flight.path(i, self.now);
+        let size = |of: fn(&Path) -> DVec3| {
+            of(&path(a)).length() + if kind == Kind::Pair { of(&path(b)).length() } else { 0.0 }
+        };
+        meeting.v_n >= -8.0 * f64::EPSILON * size(|path| path.v) && meeting.a_n > ROUNDING * size(|path| path.a)
+    }
+
+    /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
+    /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
+    pub(super) fn turn_back(&mut self, model: &Model, meeting: &Meeting) {
+        let (kind, a, b) = meeting.key;
+        let change = -meeting.v_n + self.hop_speed(meeting).max(-meeting.v_n);
+        if kind == Kind::Wall {
+            self.push(a, meeting.normal * change);
+        } else {
+            let push = meeting.normal * (change / (model.inverse_masses[a] + model.inverse_masses[b]));
+            self.push(a, push * model.inverse_masses[a]);
+            self.push(b, push * -model.inverse_masses[b]);
+        }
+        self.part(model, meeting.key, 0.0);
+    }
+
+    /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
+    /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
+    pub(super) fn hop_speed(&self, meeting: &Meeting) -> f64 {
+        let path = self.flight.path(meeting.key.1, self.now);
+        let pressing = (-meeting.normal.dot(path.a)).max(0.0);
+        f64::EPSILON * path.v.length() + self.tick() * pressing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_power_below_a_bound_is_the_one_that_counting_finds() {
+        for e in [0.0, 1e-3, 0.3, 0.5, 0.8, 0.99, 0.9999] {
+            for bound in [0.999_999, 0.5, 0.25, 0.1, 1e-3, 1e-12] {
+                let mut power: f64 = e;
+                let mut count = 1;
+                while power > bound {
+                    power *= e;
+                    count += 1;
+                }
+                let found = first_power_below(e, bound);
+                // Each product rounds.
+                assert!((found - power).abs() <= f64::from(count) * f64::EPSILON * power, "{e}, {bound}: {found}");
+            }
+        }
+        assert_eq!(first_power_below(0.999, 0.0), 0.0);
+        assert!(first_power_below(1.0 - f64::EPSILON, 1e-300) <= 1e-300, "and it does not count for ever");
+    }
+
+    #[test]
+    fn a_change_along_a_rounded_normal_is_made_to_far_below_an_ulp() {
+        // Normals of one direction, off by more than rounding ever is: n·(n change / n²) is the change in both.
+        let n = DVec3::new(2.0, 3.0, 6.0) / 7.0;
+        for size in [1.0, 1.0 + 1e-12, 1.0 - 1e-12] {
+            let change = (n * size).dot(along(n * size, 3.0));
+            // Five products and sums of numbers under 3 round.
+            assert!((change - 3.0).abs() <= 8.0 * f64::EPSILON, "{size}: {change}");
+        }
+    }
+}

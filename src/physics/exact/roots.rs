@@ -1,0 +1,31 @@
+//! Contact times as roots of polynomials.
+
+use crate::physics::Settings;
+use crate::physics::contact_time::{Path, sphere_sphere, sphere_wall};
+use crate::physics::detector::{Detector, Due, Span};
+use crate::physics::log::Log;
+use crate::physics::model::Face;
+
+/// The detector of `exact`.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::physics) struct Roots;
+
+impl Detector for Roots {
+    const SOLVES: bool = true;
+
+    fn new(_: Settings) -> Roots {
+        Roots
+    }
+
+    #[inline]
+    fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
+        sphere_wall(path, r, face, span.before).map(|after| Due { after, sure: true })
+    }
+
+    #[inline]
+    fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
+        sphere_sphere(&a.relative_to(b), reach, span.before).map(|after| Due { after, sure: true })
+    }
+
+    fn report(&mut self, _: f64, _: f64, _: &mut Log) {}
+}

@@ -1,0 +1,246 @@
+//! One frame, stage by stage: open, search, meet, solve, look again, close.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::super::contact::Key;
+use super::super::log::Log;
+use super::super::motion::{Flight, with_flight};
+use super::super::{Class, Contact, Kind, Model, Stall, motion, overlap};
+use super::Moreau;
+use super::meeting::{Path, Row, Speeds, TOUCHING, Terms};
+
+/// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
+/// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
+const MOST_ROUNDS: usize = 64;
+
+/// Rows made or looked for again between two looks at the budget.
+const CHUNK: usize = 4096;
+
+/// What the frame in progress does next; rounds count how often rows have been looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// No frame is in progress.
+    Between,
+    /// Looks for bodies that may touch.
+    Search {
+        /// How often rows have been looked for.
+        round: usize,
+    },
+    /// Makes rows of those that meet.
+    Meet {
+        /// How often rows have been looked for.
+        round: usize,
+        /// The next candidate.
+        from: usize,
+        /// Rows that there were before this round.
+        known: usize,
+    },
+    /// Solves the rows.
+    Solve {
+        /// How often rows have been looked for.
+        round: usize,
+    },
+}
+
+impl Moreau {
+    /// Goes on with the frame in progress, or opens one; the work that took.
+    ///
+    /// # Errors
+    /// Why there can be no such frame.
+    pub(super) fn go_on(&mut self, model: &Model, log: &mut Log) -> Result<u64, Stall> {
+        match self.stage {
+            Stage::Between => self.open(model),
+            Stage::Search { round } => {
+                let (done, work) = self.search.go_on(model, &self.end.x);
+                log.tallies.evaluations += work;
+                if done {
+                    self.stage = Stage::Meet { round, from: 0, known: self.rows.len() };
+                }
+                Ok(work)
+            }
+            Stage::Meet { round, from, known } => {
+                let to = self.search.found.len().min(from + CHUNK);
+                self.meet(model, round, from..to, known);
+                log.tallies.evaluations += (to - from) as u64;
+                self.stage = Stage::Meet { round, from: to, known };
+                if to == self.search.found.len() {
+                    self.end_round(model, log, round, known)?;
+                }
+                Ok(2 * (to - from) as u64)
+            }
+            Stage::Solve { round } => {
+                let (done, work) = self.solver.go_on(model, &self.free, &self.end.v, &self.rows);
+                if done {
+                    self.look_again(model, round + 1);
+                }
+                Ok(work)
+            }
+        }
+    }
+
+    /// Sets out for the next frame: free velocities u₀ = v + h a, and how far each sphere may go.
+    fn open(&mut self, model: &Model) -> Result<u64, Stall> {
+        let h = self.settings.dt;
+        if self.end.t + h == self.end.t {
+            return Err(self.standstill());
+        }
+        with_flight!(model, flight => self.fall(flight, h));
+        self.solution.clone_from(&self.free);
+        self.rows.clear();
+        self.solver.forget();
+        let (free, v) = (&self.free, &self.end.v);
+        let speed = |i: usize| free[i].length_squared().max(v[i].length_squared()).sqrt();
+        self.search.begin((0..model.len()).map(|i| reach(model, i, speed(i), h)));
+        self.stage = Stage::Search { round: 0 };
+        Ok(model.len() as u64)
+    }
+
+    fn fall(&mut self, flight: impl Flight, h: f64) {
+        for (i, (free, v)) in self.free.iter_mut().zip(&self.end.v).enumerate() {
+            *free = flight.velocity(*v, i, h);
+        }
+    }
+
+    /// Makes rows of those candidates that meet on the paths known so far and are no rows yet.
+    fn meet(&mut self, model: &Model, round: usize, range: Range<usize>, known: usize) {
+        let Some(&first) = self.search.found.get(range.start) else { return };
+        let terms = Terms::of(model, &self.settings);
+        let mut held = self.carried.partition_point(|held| held.0 < first);
+        let mut row = self.rows[..known].partition_point(|row| row.key < first);
+        for k in range {
+            let key = self.search.found[k];
+            held += self.carried[held..].iter().take_while(|held| held.0 < key).count();
+            row += self.rows[row..known].iter().take_while(|row| row.key < key).count();
+            if row == known || self.rows[row].key != key {
+                let carried = self.carried.get(held).filter(|held| held.0 == key).map_or(0.0, |held| held.1);
+                self.propose(model, key, round, carried, &terms);
+            }
+        }
+    }
+
+    /// Makes a row of two bodies if they meet.
+    fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
+        let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+        let near = if round == 0 { terms.near(model, key) } else { 0.0 };
+        let Some(meeting) = path.meeting(near) else { return };
+        let closing = -meeting.normal.dot(path.velocity);
+        let meets = closing * terms.h >= meeting.way;
+        // What is reached only because something was struck in this frame collides at the speed it has by then.
+        let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
+        let approach = if round == 0 { before } else { before.max(closing) };
+        let struck = meets && carried == 0.0 && approach > model.law.rest_speed;
+        let row = Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms);
+        if struck && key.0 == Kind::Wall {
+            let (free, n) = (&mut self.free[key.1], row.normal);
+            *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+        }
+        self.rows.push(row);
+    }
+
+    /// All candidates have been looked at: new rows are solved, with the others; without any the frame is complete.
+    fn end_round(&mut self, model: &Model, log: &mut Log, round: usize, known: usize) -> Result<(), Stall> {
+        let complete = self.rows.len() == known;
+        if complete || round >= MOST_ROUNDS {
+            return self.close(model, log, complete && self.solver.converged);
+        }
+        self.rows.sort_unstable_by_key(|row| row.key);
+        self.solver.begin(model, &self.free, &self.rows);
+        self.stage = Stage::Solve { round };
+        Ok(())
+    }
+
+    /// The rows are solved: whoever moves farther than was looked for is searched for again.
+    fn look_again(&mut self, model: &Model, round: usize) {
+        let h = self.settings.dt;
+        self.solver.read_impulses(&mut self.rows);
+        let mut farther = false;
+        for (i, solution) in self.solution.iter_mut().enumerate() {
+            *solution = self.solver.velocity(i);
+            let needed = reach(model, i, solution.length(), h);
+            if needed > self.search.reach(i) {
+                // Some more, or a growing wave would be searched for again and again.
+                self.search.widen(i, reach(model, i, 1.5 * solution.length(), h));
+                farther = true;
+            }
+        }
+        if farther {
+            self.search.restart();
+        }
+        let known = self.rows.len();
+        self.stage = if farther { Stage::Search { round } } else { Stage::Meet { round, from: 0, known } };
+    }
+
+    /// Closes the frame: v⁺ = u, x⁺ = x + h u.
+    fn close(&mut self, model: &Model, log: &mut Log, converged: bool) -> Result<(), Stall> {
+        self.stage = Stage::Between;
+        let h = self.settings.dt;
+        let ends = |i: usize| self.end.x[i] + self.solution[i] * h;
+        if let Some(lost) = (0..model.len()).find(|&i| !(ends(i).is_finite() && self.solution[i].is_finite())) {
+            return Err(self.lost(lost));
+        }
+        std::mem::swap(&mut self.start, &mut self.end);
+        self.end.t = self.start.t + h;
+        self.end.v.clone_from(&self.solution);
+        self.end.x.clear();
+        self.end.x.extend(self.start.x.iter().zip(&self.solution).map(|(x, u)| *x + *u * h));
+        self.step = h;
+        self.carried.clear();
+        self.carried.extend(self.rows.iter().filter(|row| row.impulse > 0.0).map(|row| (row.key, row.impulse)));
+        log.tallies.frames += 1;
+        log.tallies.relaxations += self.solver.solved;
+        log.tallies.unconverged += u64::from(!converged);
+        self.tell(model, log);
+        Ok(())
+    }
+
+    /// Contacts and events of the frame that has just ended: what collided, what rests, what does not rest any more.
+    fn tell(&mut self, model: &Model, log: &mut Log) {
+        log.contacts.clear();
+        log.probes.clear();
+        for row in &self.rows {
+            let resting = row.impulse == 0.0 && log.resting.binary_search(&row.key).is_ok();
+            if row.impulse == 0.0 && !resting {
+                continue;
+            }
+            let contact = self.contact(model, row);
+            log.tallies.deepest_degree = log.tallies.deepest_degree.max(contact.degree);
+            // A contact that carries nothing rests on as long as it touches: others may carry its load for a while.
+            let apart = -contact.degree * Path::of(model, row.key, &self.end.x, &self.end.v, self.step).size();
+            if row.impulse > 0.0 || apart <= TOUCHING * model.radii[row.key.1] + row.slack * self.step {
+                log.contacts.push(contact);
+            }
+            if contact.class == Class::Collide {
+                log.event(contact);
+            }
+        }
+        log.follow_rests(|key| self.release(model, key));
+    }
+
+    fn contact(&self, model: &Model, row: &Row) -> Contact {
+        let (kind, a, b) = row.key;
+        let touch = overlap::touch(model, &self.start.x, &self.end.x, row.key);
+        let v_b = if kind == Kind::Pair { self.end.v[b] } else { DVec3::ZERO };
+        Contact {
+            time: self.end.t,
+            kind,
+            a,
+            b,
+            point: touch.point,
+            normal: touch.normal,
+            approach_speed: row.approach,
+            separation_speed: motion::normal_velocity(self.end.v[a], v_b, row.normal),
+            impulse: row.impulse,
+            degree: touch.degree,
+            class: row.class,
+        }
+    }
+}
+
+/// How far around its centre a sphere is looked, m: its radius, its way in a frame of length `h` (s) at `speed` (m/s),
+/// and what near rows need.
+fn reach(model: &Model, i: usize, speed: f64, h: f64) -> f64 {
+    let near = h * (model.acceleration(i).length() * h + model.law.rest_speed);
+    model.radii[i] * (1.0 + 1e-9) + speed * h + near
+}

@@ -1,0 +1,195 @@
+//! Where and when two bodies meet that move on straight lines for a frame, and what the impact law makes of it.
+//!
+//! The gap of a sphere to a convex body (a parallelogram, another sphere) is a convex function of time on a straight
+//! path, so that Newton's method from the start of the frame comes up to its first root from below and never passes it
+//! (for a face in one step). The plane through the touching point, perpendicular to the normal there, has the other
+//! body behind it: whoever stays on its side for the rest of the frame touches nothing, whatever else happens.
+
+use glam::DVec3;
+
+use super::super::contact::Key;
+use super::super::model::Pull;
+use super::super::{Class, Kind, Model, Settings, contact_time};
+
+/// Larger tolerances count as this one: a solver that may miss everything by half solves nothing.
+const LARGEST_TOLERANCE: f64 = 0.1;
+
+/// Relative size of what rounding leaves of a row: what the tolerance cannot go below.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Steps after which a path that grazes counts as meeting.
+const MOST_STEPS: usize = 40;
+
+/// Gap over the size of the bodies from which they count as touching.
+pub(super) const TOUCHING: f64 = 1e-12;
+
+/// Two bodies that meet, or are near each other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting {
+    /// Unit normal at the touching point, towards the (first) sphere.
+    pub(super) normal: DVec3,
+    /// Way along the normal, from the start of the frame, until they touch, m; negative: overlap.
+    pub(super) way: f64,
+}
+
+/// The relative motion of two bodies from the start of a frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Path<'a> {
+    pub(super) model: &'a Model,
+    pub(super) key: Key,
+    /// Centre of the sphere; of a pair from the second's to the first's, m.
+    pub(super) from: DVec3,
+    /// Velocity of the same, m/s.
+    pub(super) velocity: DVec3,
+    /// Length of the frame, s.
+    pub(super) h: f64,
+}
+
+impl<'a> Path<'a> {
+    /// The path of the bodies of `key` with these positions (m) and velocities (m/s).
+    pub(super) fn of(model: &'a Model, key: Key, x: &[DVec3], u: &[DVec3], h: f64) -> Path<'a> {
+        let (kind, a, b) = key;
+        let (from, velocity) = match kind {
+            Kind::Wall => (x[a], u[a]),
+            Kind::Pair => (x[a] - x[b], u[a] - u[b]),
+        };
+        Path { model, key, from, velocity, h }
+    }
+
+    /// Sum of the radii, m.
+    pub(super) fn size(&self) -> f64 {
+        let (kind, a, b) = self.key;
+        self.model.radii[a] + if kind == Kind::Pair { self.model.radii[b] } else { 0.0 }
+    }
+
+    /// Unit normal and gap (m) a time `t` (s) after the start.
+    fn touch(&self, t: f64) -> (DVec3, f64) {
+        let (kind, _, b) = self.key;
+        let (at, size) = (self.from + self.velocity * t, self.size());
+        match kind {
+            Kind::Wall => {
+                let touch = contact_time::touch(&self.model.faces[b], at, size);
+                (touch.normal, touch.gap)
+            }
+            Kind::Pair => {
+                let distance = at.length();
+                // Coincident centres have no normal: any fixed one separates them.
+                (if distance > 0.0 { at / distance } else { DVec3::Y }, distance - size)
+            }
+        }
+    }
+
+    /// Where the bodies first touch within the frame; none if they do not. Bodies that are closer than `near` (m) at
+    /// the start count as meeting there, whatever they do.
+    pub(super) fn meeting(&self, near: f64) -> Option<Meeting> {
+        let (mut normal, mut gap) = self.touch(0.0);
+        if gap <= near {
+            return Some(Meeting { normal, way: gap });
+        }
+        let touching = TOUCHING * self.size();
+        let mut t = 0.0;
+        for _ in 0..MOST_STEPS {
+            let closing = -normal.dot(self.velocity);
+            if gap <= touching && closing > 0.0 {
+                break;
+            }
+            let ahead = t + gap / closing;
+            // Not closing: the gap is convex, it has no root ahead.
+            if closing <= 0.0 || ahead > self.h || ahead.is_nan() {
+                return None;
+            }
+            t = ahead;
+            (normal, gap) = self.touch(t);
+        }
+        Some(Meeting { normal, way: gap - t * normal.dot(self.velocity) })
+    }
+}
+
+/// A contact as a row of the complementarity problem J u + c ≥ 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub(super) key: Key,
+    pub(super) normal: DVec3,
+    /// c, m/s.
+    pub(super) offset: f64,
+    /// c without a rebound, way / h, m/s.
+    pub(super) reached: f64,
+    /// −v_n that the impact law saw, m/s.
+    pub(super) approach: f64,
+    pub(super) class: Class,
+    /// By how much complementarity may be missed, m/s.
+    pub(super) slack: f64,
+    /// Λ, N s.
+    pub(super) impulse: f64,
+}
+
+/// What rows are made from, beside their meeting: the same for all rows of a frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Terms {
+    /// Length of the frame, s.
+    pub(super) h: f64,
+    /// Share of the speeds at hand that a row may be wrong by.
+    tolerance: f64,
+    /// Fastest at which bodies that overlap are pushed apart, m/s: what the scene itself calls slow, or a frame's fall.
+    push: f64,
+}
+
+impl Terms {
+    pub(super) fn of(model: &Model, settings: &Settings) -> Terms {
+        let h = settings.dt;
+        let gravity = match model.pull {
+            Pull::None => 0.0,
+            Pull::Uniform(g) => g.length(),
+            Pull::PerSphere => model.accelerations.iter().map(|a| a.length()).fold(0.0, f64::max),
+        };
+        let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);
+        Terms { h, tolerance, push: model.law.rest_speed.max(gravity * h) }
+    }
+
+    /// Gap, m, within which bodies are rows from the start: others may push them together.
+    pub(super) fn near(&self, model: &Model, key: Key) -> f64 {
+        self.h * (pull(model, key) * self.h + model.law.rest_speed)
+    }
+}
+
+/// How fast two bodies meet, m/s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Speeds {
+    /// −v_n as the impact law takes it.
+    pub(super) approach: f64,
+    /// −u_n without the row.
+    pub(super) closing: f64,
+    /// Whether it is an impact.
+    pub(super) struck: bool,
+}
+
+impl Row {
+    /// The row of bodies that were held by `carried` (N s, 0 if by nothing) in the last frame.
+    pub(super) fn new(path: &Path, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
+        let law = &path.model.law;
+        let e = if path.key.0 == Kind::Wall { law.wall_restitution } else { law.restitution };
+        let gravity = pull(path.model, path.key) * terms.h;
+        // What the solver may miss is not corrected: the problem of bodies at rest is then the same in every frame, and
+        // the sweeps of all frames converge on one solution instead of chasing their own corrections.
+        let still = terms.tolerance * (law.rest_speed + gravity).min(path.size() / terms.h) * terms.h;
+        let reached = if meeting.way.abs() <= still { 0.0 } else { (meeting.way / terms.h).max(-terms.push) };
+        let share = terms.tolerance * (law.rest_speed + gravity + speeds.closing.abs());
+        let rounding = ROUNDING * (path.velocity.length() + gravity + reached.abs());
+        Row {
+            key: path.key,
+            normal: meeting.normal,
+            // v_n⁺ ≥ e · approach, or closing no more than the way that is left.
+            offset: if speeds.struck && e > 0.0 { -e * speeds.approach } else { reached },
+            reached,
+            approach: speeds.approach,
+            class: if speeds.struck { Class::Collide } else { Class::Rest },
+            slack: share.min(terms.tolerance * path.size() / terms.h).max(rounding),
+            impulse: carried,
+        }
+    }
+}
+
+/// Sum of the accelerations of the bodies of `key`, m/s².
+fn pull(model: &Model, (kind, a, b): Key) -> f64 {
+    model.acceleration(a).length() + if kind == Kind::Pair { model.acceleration(b).length() } else { 0.0 }
+}

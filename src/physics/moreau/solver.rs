@@ -1,0 +1,375 @@
+//! The complementarity problem of a frame: u = u₀ + M⁻¹ Jᵀ Λ, 0 ≤ Λ ⊥ J u + c ≥ 0.
+//!
+//! Projected Gauss–Seidel, to and fro over all rows, from the impulses of the last frame (source: Moreau, Jean; Acary,
+//! Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 12.4). It fails in silence where masses are unlike, so
+//! that islands of unlike masses go to `support`'s direct solver at once, and those that sweeping has not solved in
+//! time go there too, as long as they are small. Whatever is left is said in the outcome.
+//!
+//! Newton's law in several contacts at once can create energy. An island that would is solved once more without
+//! rebounds, which never creates any, and takes the mean of both, u = (1 − s) u_without + s u_with, with the largest s
+//! that keeps its kinetic energy: every condition that both fulfil the mean fulfils too.
+
+use glam::DVec3;
+
+use super::super::support::{self, Island, islands};
+use super::super::{Kind, Model};
+use super::meeting::Row;
+
+/// Ratio of two masses in an island from which sweeping is not tried: it would need about as many sweeps.
+const UNLIKE_MASSES: f64 = 100.0;
+
+/// Rows up to which an island is solved directly at all: some milliseconds, and the cost grows with the cube.
+const MOST_DIRECT_ROWS: usize = 400;
+
+/// Rows solved in all until islands are solved directly that are small enough: about what the direct solver costs.
+const PATIENCE: usize = 60_000;
+
+/// Most sweeps over rows of which none may be solved directly.
+const MOST_SWEEPS: usize = 3000;
+
+/// Fewest sweeps before that, however many rows there are.
+const LEAST_SWEEPS: usize = 20;
+
+/// Sweeps after which the residual is looked at even though rows still move: with tolerance 0 they always do.
+const SWEEPS_PER_LOOK: usize = 16;
+
+/// Relative size of what rounding leaves of a body's velocity after many pushes.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Share by which an island's kinetic energy may grow before it counts as a gain: rounding.
+const GAIN: f64 = 1e-12;
+
+/// No sphere: the second body of a wall's row, of infinite mass.
+const WALL: u32 = u32::MAX;
+
+/// A sphere while its rows are solved.
+#[derive(Debug, Clone, Copy)]
+struct Body {
+    u: DVec3,
+    inverse_mass: f64,
+}
+
+/// A row as the sweeps read it.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    a: u32,
+    b: u32,
+    normal: DVec3,
+    offset: f64,
+    /// 1/A_jj, kg.
+    weight: f64,
+    slack: f64,
+    impulse: f64,
+    /// Whether its island needs no sweeps: it has been solved directly, or another one is solved without rebounds.
+    settled: bool,
+}
+
+/// An island that would gain energy, and its solution with rebounds.
+#[derive(Debug, Clone)]
+struct Gain {
+    island: Island,
+    /// By body, m/s.
+    u: Vec<DVec3>,
+    /// By contact, N s.
+    impulses: Vec<f64>,
+    /// Σ m u² that it may have, J.
+    allowed: f64,
+}
+
+/// What the solver does next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    /// Sweeps, the number made so far.
+    Sweep(usize),
+    /// Solved, or given up.
+    Done,
+}
+
+/// The problem of one frame, solved in slices of a sweep.
+#[derive(Debug, Clone)]
+pub(super) struct Solver {
+    bodies: Vec<Body>,
+    lines: Vec<Line>,
+    /// Whether islands have been solved directly already.
+    resorted: bool,
+    /// Islands being solved without rebounds.
+    gains: Vec<Gain>,
+    /// Whether all masses are alike enough for sweeping.
+    alike: bool,
+    stage: Stage,
+    /// Whether every row is complementary to its slack.
+    pub(super) converged: bool,
+    /// Rows solved so far, one at a time.
+    pub(super) solved: u64,
+}
+
+impl Solver {
+    pub(super) fn new(model: &Model) -> Solver {
+        let least = model.masses.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = model.masses.iter().copied().fold(0.0, f64::max);
+        Solver {
+            bodies: Vec::new(),
+            lines: Vec::new(),
+            resorted: false,
+            gains: Vec::new(),
+            alike: model.is_empty() || most / least < UNLIKE_MASSES,
+            stage: Stage::Done,
+            converged: true,
+            solved: 0,
+        }
+    }
+
+    /// A new frame begins.
+    pub(super) fn forget(&mut self) {
+        self.solved = 0;
+        self.converged = true;
+    }
+
+    /// Sets out from the free velocities u₀, m/s, and the rows' impulses.
+    pub(super) fn begin(&mut self, model: &Model, free: &[DVec3], rows: &[Row]) {
+        self.bodies.clear();
+        self.bodies.extend(free.iter().zip(&model.inverse_masses).map(|(&u, &inverse_mass)| Body { u, inverse_mass }));
+        self.lines.clear();
+        self.lines.extend(rows.iter().map(|row| line(model, row)));
+        self.gains.clear();
+        for line in &self.lines {
+            if line.impulse > 0.0 {
+                push(&mut self.bodies, line, line.impulse);
+            }
+        }
+        self.set_out(model, free);
+    }
+
+    /// Begins to sweep; islands of unlike masses are solved at once.
+    fn set_out(&mut self, model: &Model, free: &[DVec3]) {
+        self.resorted = false;
+        self.stage = Stage::Sweep(0);
+        if !self.alike {
+            self.solve_directly(model, free, |ratio| ratio >= UNLIKE_MASSES);
+        }
+    }
+
+    /// Goes on, with the velocities of the frame's start, m/s: whether it is done, and the work that took.
+    pub(super) fn go_on(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) -> (bool, u64) {
+        let Stage::Sweep(sweeps) = self.stage else { return (true, 0) };
+        let calm = self.sweep(true) & self.sweep(false);
+        self.stage = Stage::Sweep(sweeps + 2);
+        let count = self.lines.len();
+        self.solved += 2 * count as u64;
+        if (calm || sweeps % SWEEPS_PER_LOOK == 0) && self.is_solved() {
+            self.stage = Stage::Done;
+        } else if sweeps * count >= PATIENCE && sweeps >= LEAST_SWEEPS {
+            self.give_up(model, free, sweeps);
+        }
+        if self.stage == Stage::Done {
+            self.keep_energy(model, free, v, rows);
+        }
+        (self.stage == Stage::Done, 2 * count as u64)
+    }
+
+    /// Sweeping has taken long: small islands are solved directly, the others swept on for a while.
+    fn give_up(&mut self, model: &Model, free: &[DVec3], sweeps: usize) {
+        if !self.resorted {
+            self.resorted = true;
+            self.solve_directly(model, free, |_| true);
+        }
+        let solved = self.is_solved();
+        if solved || sweeps >= MOST_SWEEPS || self.lines.iter().all(|line| line.settled) {
+            self.converged &= solved;
+            self.stage = Stage::Done;
+        }
+    }
+
+    /// One sweep over all lines, forwards or backwards; whether no row moved by more than its slack.
+    fn sweep(&mut self, forwards: bool) -> bool {
+        let Solver { bodies, lines, .. } = self;
+        let mut calm = true;
+        let mut relax = |line: &mut Line| {
+            if !line.settled {
+                calm &= relax(bodies, line);
+            }
+        };
+        if forwards {
+            lines.iter_mut().for_each(&mut relax);
+        } else {
+            lines.iter_mut().rev().for_each(&mut relax);
+        }
+        calm
+    }
+
+    /// Whether every row is complementary: |min(J u + c, Λ A_jj)| within its slack, or within the rounding of what
+    /// its bodies carry.
+    fn is_solved(&self) -> bool {
+        let residual = |line: &Line| opening(&self.bodies, line).min(line.impulse / line.weight).abs();
+        if self.lines.iter().all(|line| residual(line) <= line.slack) {
+            return true;
+        }
+        // All that is pushed into and out of a body's velocity, m/s.
+        let mut load = vec![0.0; self.bodies.len()];
+        for line in &self.lines {
+            load[line.a as usize] += line.impulse * self.bodies[line.a as usize].inverse_mass;
+            if let Some(b) = other(line) {
+                load[b] += line.impulse * self.bodies[b].inverse_mass;
+            }
+        }
+        let carried = |line: &Line| load[line.a as usize] + other(line).map_or(0.0, |b| load[b]);
+        self.lines.iter().all(|line| residual(line) <= line.slack.max(ROUNDING * carried(line)))
+    }
+
+    /// Sets out without rebounds for islands that would gain energy; if that is done already, takes the means.
+    fn keep_energy(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) {
+        if !self.gains.is_empty() {
+            self.take_means(model);
+        } else if rows.iter().any(|row| row.offset < row.reached) {
+            self.gains = self.find_gains(model, free, v);
+            if !self.gains.is_empty() {
+                self.drop_rebounds(free, rows);
+                self.set_out(model, free);
+            }
+        }
+    }
+
+    fn find_gains(&self, model: &Model, free: &[DVec3], v: &[DVec3]) -> Vec<Gain> {
+        let mut gains = Vec::new();
+        for island in islands(&self.links()) {
+            let energy = |u: &dyn Fn(usize) -> DVec3| -> f64 {
+                island.bodies.iter().map(|&body| model.masses[body] * u(body).length_squared()).sum()
+            };
+            let allowed = energy(&|body| free[body]).max(energy(&|body| v[body]));
+            if energy(&|body| self.bodies[body].u) > allowed * (1.0 + GAIN) {
+                let u = island.bodies.iter().map(|&body| self.bodies[body].u).collect();
+                let impulses = island.contacts.iter().map(|&index| self.lines[index].impulse).collect();
+                gains.push(Gain { island, u, impulses, allowed });
+            }
+        }
+        gains
+    }
+
+    /// The islands of `gains` from the start and without rebounds; all others stay as they are.
+    fn drop_rebounds(&mut self, free: &[DVec3], rows: &[Row]) {
+        self.lines.iter_mut().for_each(|line| line.settled = true);
+        for gain in &self.gains {
+            gain.island.bodies.iter().for_each(|&body| self.bodies[body].u = free[body]);
+            for &index in &gain.island.contacts {
+                let line = &mut self.lines[index];
+                line.settled = false;
+                line.offset = rows[index].reached;
+                push(&mut self.bodies, line, line.impulse);
+            }
+        }
+    }
+
+    /// u = u_without + s (u_with − u_without), with Σ m u² = what is allowed, and likewise the impulses.
+    fn take_means(&mut self, model: &Model) {
+        for gain in &self.gains {
+            let (mut without, mut mixed, mut change) = (0.0, 0.0, 0.0);
+            for (&body, &with) in gain.island.bodies.iter().zip(&gain.u) {
+                let (m, u) = (model.masses[body], self.bodies[body].u);
+                without += m * u.length_squared();
+                mixed += m * u.dot(with - u);
+                change += m * (with - u).length_squared();
+            }
+            let room = (gain.allowed - without).max(0.0);
+            let share = (((mixed * mixed + change * room).sqrt() - mixed) / change).clamp(0.0, 1.0);
+            // 0 / 0 where both are the same.
+            let share = if share.is_nan() { 0.0 } else { share };
+            for (&body, &with) in gain.island.bodies.iter().zip(&gain.u) {
+                let u = &mut self.bodies[body].u;
+                *u += (with - *u) * share;
+            }
+            for (&index, &with) in gain.island.contacts.iter().zip(&gain.impulses) {
+                let impulse = &mut self.lines[index].impulse;
+                *impulse += (with - *impulse) * share;
+            }
+        }
+    }
+
+    /// The bodies that each line connects.
+    fn links(&self) -> Vec<(usize, Option<usize>)> {
+        self.lines.iter().map(|line| (line.a as usize, other(line))).collect()
+    }
+
+    /// Solves those unsettled islands directly that are small enough and whose ratio of masses is `wanted`.
+    fn solve_directly(&mut self, model: &Model, free: &[DVec3], wanted: impl Fn(f64) -> bool) {
+        for island in islands(&self.links()) {
+            let masses = island.bodies.iter().map(|&body| model.masses[body]);
+            let (least, most) = masses.fold((f64::INFINITY, 0.0_f64), |(l, m), mass| (l.min(mass), m.max(mass)));
+            let settled = self.lines[island.contacts[0]].settled;
+            if settled || island.contacts.len() > MOST_DIRECT_ROWS || !wanted(most / least) {
+                continue;
+            }
+            let rows: Vec<_> = island.contacts.iter().map(|&index| row(&self.lines[index])).collect();
+            let guess: Vec<f64> = island.contacts.iter().map(|&index| self.lines[index].impulse).collect();
+            let solution = support::solve(&model.inverse_masses, free, &rows, &guess);
+            for (&index, &impulse) in island.contacts.iter().zip(&solution.multipliers) {
+                self.lines[index].impulse = impulse;
+                self.lines[index].settled = true;
+            }
+            for (&body, &u) in solution.bodies.iter().zip(&solution.vectors) {
+                self.bodies[body].u = u;
+            }
+            self.solved += solution.reports.iter().map(|report| (report.contacts * report.passes) as u64).sum::<u64>();
+        }
+    }
+
+    /// u of a sphere, m/s.
+    pub(super) fn velocity(&self, sphere: usize) -> DVec3 {
+        self.bodies[sphere].u
+    }
+
+    /// Puts the impulses, N s, into the rows that the problem began with.
+    pub(super) fn read_impulses(&self, rows: &mut [Row]) {
+        rows.iter_mut().zip(&self.lines).for_each(|(row, line)| row.impulse = line.impulse);
+    }
+}
+
+fn line(model: &Model, row: &Row) -> Line {
+    let (kind, a, b) = row.key;
+    let (b, inverse) = match kind {
+        Kind::Wall => (WALL, 0.0),
+        Kind::Pair => (b as u32, model.inverse_masses[b]),
+    };
+    let weight = 1.0 / (model.inverse_masses[a] + inverse);
+    let Row { normal, offset, slack, impulse, .. } = *row;
+    Line { a: a as u32, b, normal, offset, weight, slack, impulse, settled: false }
+}
+
+fn other(line: &Line) -> Option<usize> {
+    (line.b != WALL).then_some(line.b as usize)
+}
+
+/// A line as the direct solver takes it.
+fn row(line: &Line) -> support::Row {
+    support::Row { a: line.a as usize, b: other(line), normal: line.normal, offset: line.offset }
+}
+
+/// J u + c of a row, m/s.
+#[inline(always)]
+fn opening(bodies: &[Body], line: &Line) -> f64 {
+    let other = bodies.get(line.b as usize).map_or(DVec3::ZERO, |body| body.u);
+    line.normal.dot(bodies[line.a as usize].u - other) + line.offset
+}
+
+/// Solves one row for its impulse, the others held: Λ ← max(0, Λ − (J u + c)/A_jj). Whether that moved it by no more
+/// than its slack.
+#[inline(always)]
+fn relax(bodies: &mut [Body], line: &mut Line) -> bool {
+    let new = (line.impulse - opening(bodies, line) * line.weight).max(0.0);
+    let change = new - line.impulse;
+    if change != 0.0 {
+        line.impulse = new;
+        push(bodies, line, change);
+    }
+    change.abs() <= line.slack * line.weight
+}
+
+/// Moves the bodies of a row by an impulse along its normal, N s.
+#[inline(always)]
+fn push(bodies: &mut [Body], line: &Line, impulse: f64) {
+    let along = line.normal * impulse;
+    let a = &mut bodies[line.a as usize];
+    a.u += along * a.inverse_mass;
+    if let Some(b) = bodies.get_mut(line.b as usize) {
+        b.u -= along * b.inverse_mass;
+    }
+}

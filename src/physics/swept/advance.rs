@@ -1,0 +1,177 @@
+//! Conservative advancement: from what is seen now, step as far as nothing can have been missed; look; step on.
+//!
+//! Bodies are convex, so that each lies on its side of the plane through the contact point, and the gap along that normal
+//! is a parabola that the gap itself never undercuts. While the gap is wide, steps end where the parabola comes near 0,
+//! and the search says "look again then": most such contacts never happen, because something else comes first. Close up,
+//! steps end where the parabola reaches half the tolerance below 0. The first look that sees an overlap that closes, no
+//! deeper than the tolerance, is the contact; if rounding has made it deeper, the last step is halved until it is not, or
+//! until no time lies between its ends, and then the later end is taken as it is. No tolerance is too small: 0 ends there.
+//!
+//! An overlap that opens is no contact until it closes again: the search goes on to where it could at the earliest.
+
+use std::cell::{Cell, RefCell};
+
+use super::sight::{Glance, Pair, Sight, Wall};
+use crate::physics::contact_time::{Path, quadratic_fall};
+use crate::physics::detector::{Detector, Due, Span};
+use crate::physics::log::Log;
+use crate::physics::model::Face;
+use crate::physics::{Probe, Settings};
+
+/// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
+const LARGEST_TOLERANCE: f64 = 0.5;
+
+/// Gaps up to this many radii are looked at to the end, wider ones when they have become so.
+const NEAR: f64 = 1e-3;
+
+/// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
+const HOP: f64 = 4.0 * f64::EPSILON;
+
+/// Normal velocities below this share of the bodies' speeds are rounding: 64 ulp.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Coarsest time scale at which rounding of the clock is ignored, s.
+const CLOCK: f64 = 1e-3;
+
+/// Looks at two bodies after which the search is interrupted, to go on from there.
+const PATIENCE: usize = 200;
+
+/// The detector of `swept`, and what it has looked at since it last told.
+#[derive(Debug, Clone)]
+pub(in crate::physics) struct Advance {
+    /// Deepest overlap accepted, dimensionless.
+    tolerance: f64,
+    evaluations: Cell<u64>,
+    /// Close looks not yet told: when, s, and the degree seen.
+    probes: RefCell<Vec<(f64, f64)>>,
+}
+
+impl Detector for Advance {
+    const SOLVES: bool = false;
+
+    fn new(settings: Settings) -> Advance {
+        let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);
+        Advance { tolerance, evaluations: Cell::new(0), probes: RefCell::default() }
+    }
+
+    fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
+        self.search(&Wall { path, r, face }, span)
+    }
+
+    fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
+        let pair = Pair::new(a, b, reach);
+        if pair.parts_for_good() {
+            self.count();
+            return None;
+        }
+        self.search(&pair, span)
+    }
+
+    fn report(&mut self, start: f64, end: f64, log: &mut Log) {
+        log.tallies.evaluations += self.evaluations.take();
+        let before = log.probes.len();
+        self.probes.get_mut().retain(|&(time, degree)| {
+            // what was seen of later frames is told in theirs
+            if time <= end {
+                log.probes.push(Probe { step: time - start, degree });
+            }
+            time > end
+        });
+        log.tallies.probes += (log.probes.len() - before) as u64;
+    }
+}
+
+impl Advance {
+    /// When two bodies are next in contact, or when to look again.
+    fn search(&self, sight: &impl Sight, span: Span) -> Option<Due> {
+        let near = NEAR * sight.reach();
+        let (mut s, mut seen) = (0.0, sight.glance(0.0));
+        for _ in 0..PATIENCE {
+            self.count();
+            if seen.gap <= 0.0 && closes(sight, s, seen) {
+                return Some(Due { after: s, sure: true });
+            }
+            let wide = seen.gap > 2.0 * near;
+            let step = if wide { wide_step(seen, near) } else { self.close_step(sight, seen) }?;
+            let next = later(span.now, s, step);
+            // not "next >= before": a step that is no number ends the search too
+            if !(next < span.before) {
+                return None;
+            }
+            let last = std::mem::replace(&mut s, next);
+            seen = sight.glance(s);
+            if wide && seen.gap <= near && span.now + s > span.now {
+                self.count();
+                return Some(Due { after: s, sure: false });
+            }
+            if !wide {
+                if seen.gap <= 2.0 * near {
+                    self.note(sight, span.now + s, seen);
+                }
+                if seen.gap < -self.tolerance * sight.reach() && last < s && closes(sight, s, seen) {
+                    return Some(Due { after: self.halve(sight, span.now, [last, s]), sure: true });
+                }
+            }
+        }
+        Some(Due { after: s, sure: false })
+    }
+
+    /// How far to go from a narrow gap, or from an overlap that opens; none if nothing will come of it.
+    fn close_step(&self, sight: &impl Sight, seen: Glance) -> Option<f64> {
+        let Glance { gap, v_n, a_n } = seen;
+        if gap > 0.0 {
+            return quadratic_fall([gap + 0.5 * self.tolerance * sight.reach(), v_n, 0.5 * a_n]);
+        }
+        // unless something presses it, it will never be deeper than it is, but for rounding
+        let (pull, rounding) = (sight.pull(), HOP * sight.size());
+        if a_n >= 0.0 || v_n * v_n <= 2.0 * pull * rounding {
+            return quadratic_fall([rounding, v_n, 0.5 * a_n]);
+        }
+        Some(v_n / pull)
+    }
+
+    /// The contact within a step (s from now) from outside to deeper than the tolerance.
+    fn halve(&self, sight: &impl Sight, now: f64, [mut outside, mut inside]: [f64; 2]) -> f64 {
+        loop {
+            let middle = 0.5 * (outside + inside);
+            if now + middle == now + outside || now + middle == now + inside {
+                return inside;
+            }
+            let seen = sight.glance(middle);
+            self.count();
+            self.note(sight, now + middle, seen);
+            if seen.gap > 0.0 || !closes(sight, middle, seen) {
+                outside = middle;
+            } else if seen.gap >= -self.tolerance * sight.reach() {
+                return middle;
+            } else {
+                inside = middle;
+            }
+        }
+    }
+
+    fn count(&self) {
+        self.evaluations.set(self.evaluations.get() + 1);
+    }
+
+    fn note(&self, sight: &impl Sight, time: f64, seen: Glance) {
+        self.probes.borrow_mut().push((time, -seen.gap / sight.reach()));
+    }
+}
+
+/// How far to go from a wide gap: to where it may be half of what counts as near.
+fn wide_step(seen: Glance, near: f64) -> Option<f64> {
+    quadratic_fall([seen.gap - 0.5 * near, seen.v_n, 0.5 * seen.a_n])
+}
+
+/// Whether the gap is about to shrink. Where only rounding says so, what presses decides: of three spheres in a row that
+/// have stopped approaching each other, rounding would otherwise have the outer two push the middle one to and fro.
+fn closes(sight: &impl Sight, s: f64, seen: Glance) -> bool {
+    seen.v_n < 0.0 && seen.v_n < -ROUNDING * sight.speed(s) || seen.v_n <= 0.0 && sight.bend(s) < 0.0
+}
+
+/// A step after `s` (s from now), which the clock must be able to tell from it.
+fn later(now: f64, s: f64, step: f64) -> f64 {
+    let time = (now + s).abs().max(CLOCK);
+    s + step.max(time.next_up() - time)
+}

@@ -1,0 +1,84 @@
+//! When the impacts were.
+
+/// Bins of a [`Ticks`]: more than any terminal has columns, and a few kilobytes however long the run lasts.
+const BINS: usize = 1024;
+
+/// Collisions over time, for the timeline: bins of equal width that double when the run outgrows them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ticks {
+    /// Time covered by all bins, s, from 0.
+    pub span: f64,
+    /// Impacts per bin.
+    pub impacts: Vec<u32>,
+}
+
+impl Ticks {
+    /// No collisions yet, in bins that cover `span` seconds (1 s if that is not a positive number).
+    pub fn new(span: f64) -> Ticks {
+        let span = if span.is_finite() && span > 0.0 { span } else { 1.0 };
+        Ticks { span, impacts: vec![0; BINS] }
+    }
+
+    /// Counts an impact at `time`, s; the bins double until they reach it. A time that is no number is left out.
+    pub fn add(&mut self, time: f64) {
+        if !time.is_finite() {
+            return;
+        }
+        while time >= self.span && self.span < f64::MAX / 2.0 {
+            self.double();
+        }
+        let bin = time.max(0.0) / self.span * self.impacts.len() as f64;
+        let last = self.impacts.len() - 1;
+        let count = &mut self.impacts[(bin as usize).min(last)];
+        *count = count.saturating_add(1);
+    }
+
+    /// Twice the span in the same number of bins.
+    fn double(&mut self) {
+        let half = self.impacts.len() / 2;
+        for i in 0..half {
+            self.impacts[i] = self.impacts[2 * i].saturating_add(self.impacts[2 * i + 1]);
+        }
+        self.impacts[half..].fill(0);
+        self.span *= 2.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn total(ticks: &Ticks) -> u32 {
+        ticks.impacts.iter().sum()
+    }
+
+    #[test]
+    fn an_impact_is_counted_in_the_bin_of_its_time() {
+        let mut ticks = Ticks::new(20.0);
+        ticks.add(5.0);
+        assert_eq!(ticks.impacts[BINS / 4], 1);
+        assert_eq!(total(&ticks), 1);
+    }
+
+    #[test]
+    fn the_bins_double_when_the_run_outgrows_them_and_lose_no_impact() {
+        let mut ticks = Ticks::new(20.0);
+        for time in [0.0, 1.0, 5.0, 19.9, 20.0, 79.0] {
+            ticks.add(time);
+        }
+        assert_eq!((ticks.span, ticks.impacts.len()), (80.0, BINS));
+        assert_eq!(total(&ticks), 6);
+        assert_eq!(ticks.impacts[BINS / 4], 1, "20 s of 80 s");
+    }
+
+    #[test]
+    fn odd_spans_and_times_are_survived() {
+        for span in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
+            let mut ticks = Ticks::new(span);
+            for time in [f64::NAN, f64::INFINITY, -3.0, 0.0, 1e308, f64::MAX] {
+                ticks.add(time);
+            }
+            assert_eq!(total(&ticks), 4);
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! `carom measure` as a user runs it: files, parts, signals, refusals.
+
+use std::fs;
+
+use rustix::process::Signal;
+
+use crate::program::{carom, folder, in_folder, names_in};
+use crate::pty;
+
+const COLUMNS: &str = "scene,method,dt,tolerance,until,horizon,position_error,impact_time_error,common_events,\
+                       energy_error,deepest_degree,impacts,evaluations,cpu_per_s,cpu_spread,note";
+
+/// Few and quick settings, two of which stall in paper-2.
+const QUICK: [&str; 5] = ["measure", "paper-0", "paper-2", "--dt=1e-1,1e-2", "--tolerances=1e-3,1e-5"];
+
+/// What the clock has to say in a note.
+const OF_THE_CLOCK: [&str; 4] = ["timer too coarse", "timed once", "timings spread widely", "machine busy"];
+
+/// The rows without what the clock says: the last but two, the last but one, and phrases of the last.
+fn timeless(csv: &str) -> Vec<String> {
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some(COLUMNS));
+    lines.map(without_times).collect()
+}
+
+fn without_times(line: &str) -> String {
+    let cells: Vec<&str> = line.split(',').collect();
+    assert_eq!(cells.len(), 16, "{line}");
+    let note: Vec<&str> = cells[15].split("; ").filter(|phrase| !OF_THE_CLOCK.contains(phrase)).collect();
+    format!("{},{}", cells[..13].join(","), note.join("; "))
+}
+
+#[test]
+fn the_rows_are_the_stored_ones_whatever_the_number_of_jobs() {
+    let run = |jobs: &str| carom(&[&QUICK[..], &["--csv", "-", "--jobs", jobs]].concat()).succeeds();
+    let (one, many) = (run("1"), run("3"));
+    insta::assert_snapshot!("rows", timeless(&one.out).join("\n"));
+    assert_eq!(timeless(&one.out), timeless(&many.out));
+    assert!(one.err.contains("The yardstick, exact, takes"), "the report has to go somewhere: {}", one.err);
+}
+
+#[test]
+fn parts_in_any_order_merge_to_the_whole() {
+    let folder = folder();
+    let whole = timeless(&carom(&[&QUICK[..], &["--csv", "-"]].concat()).succeeds().out);
+    let parts: Vec<String> = (1..=3).map(|part| in_folder(&folder, &format!("{part}.csv"))).collect();
+    for (index, path) in parts.iter().enumerate() {
+        let shard = format!("{}/3", index + 1);
+        carom(&[&QUICK[..], &["--shard", &shard, "--csv", path]].concat()).succeeds();
+    }
+    let merged = carom(&["measure", "--merge", &parts[2], &parts[0], &parts[1], "--csv", "-"]).succeeds();
+    assert_eq!(timeless(&merged.out), whole);
+    let mut cells: Vec<String> = parts.iter().flat_map(|part| lines_of(part)).collect();
+    let mut joined: Vec<String> = merged.out.lines().skip(1).map(String::from).collect();
+    cells.sort();
+    joined.sort();
+    assert_eq!(joined, cells, "not a digit is lost, times included");
+}
+
+fn lines_of(path: &str) -> Vec<String> {
+    fs::read_to_string(path).expect("a part").lines().skip(1).map(String::from).collect()
+}
+
+#[test]
+fn the_report_has_a_table_a_chart_and_the_cheapest_settings_within_80_columns() {
+    let folder = folder();
+    let svg = in_folder(&folder, "trade.svg");
+    let methods = "--methods=paper,exact,moreau,swept";
+    let grid = ["measure", "paper-0", "--dt=1e-2,1e-3", "--tolerances=1e-3", methods, "--svg", &svg];
+    let report = carom(&grid).succeeds().out;
+    let cheapest = "Cheapest for errors of 1e0 down to 1e-16 m: exact";
+    for words in ["paper-0: 20 s; horizon none", "* exact", "position error, m", cheapest, "s swept"] {
+        assert!(report.contains(words), "{words:?} is not in\n{report}");
+    }
+    assert!(report.lines().all(|line| line.chars().count() <= 80), "{report}");
+    assert!(fs::read_to_string(&svg).expect("the figure").starts_with("<svg "));
+    assert_eq!(names_in(&folder), ["trade.svg"]);
+}
+
+#[test]
+fn exact_competes_only_if_it_is_listed() {
+    let grid = ["measure", "paper-0", "--dt", "1e-2", "--tolerances", "1e-3"];
+    let usual = carom(&grid).succeeds().out;
+    assert!(usual.contains("\n  exact") && usual.contains("\n* swept"), "{usual}");
+    let listed = carom(&[&grid[..], &["--methods", "exact,paper"]].concat()).succeeds().out;
+    assert!(listed.contains("\n* exact"), "{listed}");
+    let alone = carom(&[&grid[..], &["--methods", "paper"]].concat()).succeeds().out;
+    assert!(!alone.contains("\n  exact") && alone.contains("The yardstick, exact, takes"), "{alone}");
+}
+
+#[test]
+fn an_interrupt_keeps_what_is_done_and_says_so() {
+    let folder = folder();
+    let csv = in_folder(&folder, "rows.csv");
+    // The second setting takes 2e9 frames: nobody waits for it.
+    let arguments = [
+        "measure",
+        "paper-0",
+        "--methods",
+        "paper",
+        "--dt",
+        "1e-2,1e-8",
+        "--tolerances",
+        "1e-3",
+        "--jobs",
+        "1",
+        "--csv",
+        &csv,
+    ];
+    let mut pty = pty::carom(&arguments).run();
+    pty.until_text("1 of 2 settings");
+    assert!(!fs::exists(&csv).expect("a folder to look into"), "no half of a file before the end");
+    pty.signal(Signal::INT);
+    assert_eq!(pty.exit(), 130);
+    assert!(pty.text().contains("interrupted: 1 of 2 settings are done and kept"), "{}", pty.text());
+    let text = fs::read_to_string(&csv).expect("what is done");
+    let rows = timeless(&text);
+    assert!(rows.len() == 1 && rows[0].starts_with("paper-0,paper,0.01,0.001,20.0,"), "{text}");
+    assert_eq!(names_in(&folder), ["rows.csv"]);
+}
+
+#[test]
+fn a_broken_part_is_refused_with_file_and_line() {
+    let folder = folder();
+    let path = in_folder(&folder, "part.csv");
+    let row = "paper-0,paper,0.1,0.001,20.0,,1.0,,0,0.5,0.0,0,1206,1e-6,0.1,";
+    for (text, line, words) in [
+        (String::new(), 1, "empty"),
+        ("a,b\n1,2\n".into(), 1, "columns"),
+        (format!("{COLUMNS}\n{row}\n{}\n", row.replace("1206", "many")), 3, "evaluations is \"many\""),
+        (format!("{COLUMNS}\n{row}\npaper-0,paper\n"), 3, "2 cells"),
+        (format!("{COLUMNS}\n{}\n", row.replace("paper,", "magic,")), 2, "\"magic\""),
+        (format!("{COLUMNS}\n{row}\n{row}\n"), 3, "already"),
+        (format!("{COLUMNS}\n{row}\n{}\n", row.replace("0.1,0.001,20.0,,", "0.2,0.001,20.0,7.5,")), 3, "horizon"),
+    ] {
+        fs::write(&path, text).expect("a file");
+        let ran = carom(&["measure", "--merge", &path]).fails_with(1);
+        assert!(ran.err.contains(&format!("part.csv:{line}:")) && ran.err.contains(words), "{}", ran.err);
+        assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+    }
+    let missing = carom(&["measure", "--merge", &in_folder(&folder, "none.csv")]).fails_with(1);
+    assert!(missing.err.contains("none.csv"), "{}", missing.err);
+}
+
+#[test]
+fn wrong_usage_is_told() {
+    for arguments in [
+        &["measure"][..],
+        &["measure", "paper-0", "--shard", "0/2"],
+        &["measure", "paper-0", "--shard", "3/2"],
+        &["measure", "paper-0", "--merge", "a.csv"],
+        &["measure", "paper-0", "--methods", "magic"],
+        &["measure", "paper-0", "--dt", "0"],
+        &["measure", "paper-0", "--tolerances", "1e-3,-1"],
+        &["measure", "paper-0", "--jobs", "0"],
+        &["measure", "paper-0", "--csv", "-", "--svg", "-"],
+        &["run", "paper-0", "--accuracy", "0"],
+        &["run", "paper-0", "--accuracy", "1e-3", "--dt", "0.1"],
+    ] {
+        carom(arguments).fails_with(2);
+    }
+    let twice = carom(&["measure", "paper-0", "paper-0"]).fails_with(1);
+    assert!(twice.err.contains("two scenes are called paper-0"), "{}", twice.err);
+    carom(&["measure", "nowhere"]).fails_with(1);
+}
+
+#[test]
+fn a_run_with_an_accuracy_says_what_it_chose_and_meets_it() {
+    let ran = carom(&["run", "paper-0", "--until", "1", "--states", "-", "--accuracy", "0.06", "--method", "paper"]);
+    let ran = ran.succeeds();
+    assert!(ran.err.starts_with("carom: chose paper, dt "), "{}", ran.err);
+    let y: f64 = ran.out.lines().last().and_then(|row| row.split(',').nth(3)?.parse().ok()).expect("y at 1 s");
+    // Scene 0 falls freely for 1 s, from 9.5 m.
+    assert!((y - (9.5 - 4.9)).abs() <= 0.06, "{y}");
+    let refused = carom(&["run", "paper-0", "--until", "1", "--accuracy", "1e-9", "--method", "paper"]).fails_with(1);
+    assert!(refused.err.contains("no setting of paper"), "{}", refused.err);
+    let frame = carom(&["render", "paper-0", "--accuracy", "1"]).succeeds();
+    assert!(frame.err.starts_with("carom: chose "), "{}", frame.err);
+}
+
+#[test]
+fn the_screen_begins_with_what_was_chosen() {
+    let mut pty = pty::carom(&["paper-0", "--paused", "--accuracy", "1e-3", "--method", "exact"]).run();
+    pty.until_text("chose exact: ");
+    pty.send("q");
+    assert_eq!(pty.exit(), 0);
+    pty.assert_given_back();
+}
