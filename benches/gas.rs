@@ -99,7 +99,7 @@ fn measure(scene: &Scene, packing: f64, warm: u64, blocks: usize) -> f64 {
 fn swept_beside_exact() {
     println!("swept, packing 0.1, frames of 0.01 s");
     for (count, span, rounds) in [(1000, 10.0, 5), (10_000, 1.0, 5)] {
-        let scene = gas(0.1, count);
+        let scene = gas(0.1, count, 0.0);
         let by_exact = per_second(&scene, EXACT, span, rounds);
         for tolerance in [1e-3, 1e-6, 1e-12] {
             let swept = per_second(&scene, Settings { method: Method::Swept, dt: 0.01, tolerance }, span, rounds);

@@ -2,6 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZero;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -10,17 +11,19 @@ use super::arguments::Verify;
 use super::failure::Failure;
 use super::output::Output;
 use super::signals::Signals;
-use crate::measure::verify::{self, CHECKS, Depth, Lab, Outcome, Row, table};
+use crate::measure::verify::{self, CHECKS, Depth, Lab, Outcome, Row, Trouble, table};
 
 pub(super) fn verify(arguments: &Verify, signals: &Signals) -> Result<(), Failure> {
     let depth = if arguments.quick { Depth::Quick } else { Depth::Whole };
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let go_on = || signals.check().is_ok();
+    let read = AtomicBool::new(true);
+    let go_on = || signals.check().is_ok() && read.load(Ordering::Relaxed);
     let mut book = Book::open()?;
     let mut told = Ok(());
     verify::verify(Lab::new(depth, &go_on), threads, |outcome| {
-        if told.is_ok() && go_on() {
+        if go_on() {
             told = book.enter(outcome);
+            read.store(told.is_ok(), Ordering::Relaxed);
         }
     });
     book.bar.finish_and_clear();
@@ -35,8 +38,7 @@ struct Book {
     bar: ProgressBar,
     waiting: Vec<Option<Outcome>>,
     next: usize,
-    rows: usize,
-    failed: usize,
+    tally: Tally,
 }
 
 impl Book {
@@ -45,30 +47,19 @@ impl Book {
         out.write_all(table::head().as_bytes())?;
         out.flush()?;
         let waiting = CHECKS.iter().map(|_| None).collect();
-        Ok(Book { out, bar: progress_bar(), waiting, next: 0, rows: 0, failed: 0 })
+        Ok(Book { out, bar: progress_bar(), waiting, next: 0, tally: Tally::default() })
     }
 
     fn enter(&mut self, outcome: Outcome) -> Result<(), Failure> {
         let index = outcome.0;
         self.waiting[index] = Some(outcome);
         self.bar.inc(1);
-        let Book { out, bar, waiting, next, rows, failed } = self;
+        let Book { out, bar, waiting, next, tally } = self;
         bar.suspend(|| {
             while let Some((index, found)) = waiting.get_mut(*next).and_then(Option::take) {
-                let text = match found {
-                    Ok(found) => {
-                        *rows += found.len();
-                        *failed += found.iter().filter(|row: &&Row| !row.passes()).count();
-                        table::rows(index + 1, &found)
-                    }
-                    Err(trouble) => {
-                        *rows += 1;
-                        *failed += 1;
-                        table::failure(index + 1, &CHECKS[index], &trouble.to_string())
-                    }
-                };
+                tally.count(&found);
+                out.write_all(text(index, &found).as_bytes())?;
                 *next += 1;
-                out.write_all(text.as_bytes())?;
             }
             out.flush()
         })?;
@@ -78,9 +69,43 @@ impl Book {
     fn close(mut self) -> Result<(), Failure> {
         self.out.write_all(table::notes(CHECKS).as_bytes())?;
         self.out.finish()?;
-        match self.failed {
-            0 => Ok(()),
-            failed => Err(Failure::Failed(format!("{failed} of {} known results are not met; see FAIL", self.rows))),
+        self.tally.verdict()
+    }
+}
+
+fn text(index: usize, found: &Result<Vec<Row>, Trouble>) -> String {
+    match found {
+        Ok(rows) => table::rows(index + 1, rows),
+        Err(trouble) => table::failure(index + 1, &CHECKS[index], &trouble.to_string()),
+    }
+}
+
+/// Rows, and those that fail. A check without a result is a row that fails.
+#[derive(Debug, Default)]
+struct Tally {
+    rows: usize,
+    failed: usize,
+}
+
+impl Tally {
+    fn count(&mut self, found: &Result<Vec<Row>, Trouble>) {
+        let (rows, failed) = found.as_ref().map_or((1, 1), |rows| {
+            let failed = rows.iter().filter(|row| !row.passes());
+            (rows.len(), failed.count())
+        });
+        self.rows += rows;
+        self.failed += failed;
+    }
+
+    fn verdict(&self) -> Result<(), Failure> {
+        match self {
+            Tally { failed: 0, .. } => Ok(()),
+            Tally { failed: 1, rows } => {
+                Err(Failure::Failed(format!("1 of {rows} known results is not met: see FAIL")))
+            }
+            Tally { failed, rows } => {
+                Err(Failure::Failed(format!("{failed} of {rows} known results are not met: see FAIL")))
+            }
         }
     }
 }
@@ -96,4 +121,25 @@ fn progress_bar() -> ProgressBar {
     let bar = style.map(|style| bar.clone().with_style(style)).unwrap_or(bar);
     bar.tick();
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_that_fails_or_is_missing_fails_the_command() {
+        let row = |found| Row { what: "one".into(), unit: "", expected: 1.0, found, allowed: 0.5 };
+        let verdict = |found| {
+            let mut tally = Tally::default();
+            tally.count(&found);
+            tally.verdict().map_err(|failure| format!("{failure:?}"))
+        };
+        assert_eq!(verdict(Ok(vec![row(1.0), row(1.5)])), Ok(()));
+        let failed = verdict(Ok(vec![row(1.0), row(1.6)]));
+        assert!(failed.is_err_and(|told| told.contains("1 of 2 known results is not met")));
+        let nothing = verdict(Ok(vec![row(f64::NAN), row(2.0)]));
+        assert!(nothing.is_err_and(|told| told.contains("2 of 2 known results are not met")));
+        assert!(verdict(Err(Trouble::Failed("It stalled.".into()))).is_err());
+    }
 }

@@ -122,7 +122,7 @@ impl Model {
             inverse_masses: spheres.iter().map(|s| 1.0 / s.mass).collect(),
             faces: faces(scene, &initial.x, &radii),
             radii,
-            law: scene.contact,
+            law: law(scene),
             pairs: match spheres.len() {
                 0 | 1 => PairSearch::None,
                 2..=ALL_PAIRS_LIMIT => PairSearch::All,
@@ -168,6 +168,14 @@ impl Model {
             Pull::PerSphere => self.accelerations[i],
         }
     }
+}
+
+/// The scene's law, unless a test breaks it on purpose.
+fn law(scene: &Scene) -> ContactLaw {
+    #[cfg(not(test))]
+    return scene.contact;
+    #[cfg(test)]
+    super::broken::broken(scene.contact)
 }
 
 /// The walls of a scene with what their tests need.

@@ -13,9 +13,9 @@ use crate::scene;
 pub(super) const RADIUS: f64 = 0.1;
 /// Diameter, m.
 pub(super) const SIGMA: f64 = 2.0 * RADIUS;
-/// Impacts per sphere after which the start is forgotten: Maxwell's speeds need a handful, the density some dozens
-/// for sound to cross the box.
-const WARM_UP: f64 = 40.0;
+/// Time after which the start is forgotten, s: a sphere of mean speed passes its diameter thirty times, collides fifty
+/// times and more, and sound crosses the box several times.
+const WARM_UP: f64 = 30.0 * SIGMA;
 
 /// Elastic spheres of these masses (kg) in equal numbers, strewn at rms speed 1 m/s per axis over a cube of which
 /// they fill the share `packing`.
@@ -61,13 +61,10 @@ impl<'a> Gas<'a> {
         Gas { lab, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
     }
 
-    /// The same, after so many impacts that the start is forgotten.
+    /// The same, after so long that the start is forgotten.
     pub(super) fn thermal(lab: &'a Lab, scene: &Scene) -> Result<Gas<'a>, Trouble> {
         let mut gas = Gas::new(lab, scene);
-        while 2.0 * gas.run.tallies().impacts as f64 / gas.count < WARM_UP {
-            // A tenth of the time in which a sphere of mean speed passes its diameter.
-            gas.go(gas.run.time() + 0.1 * SIGMA)?;
-        }
+        gas.go(WARM_UP)?;
         gas.run.record_events(true);
         gas.run.take_events();
         Ok(gas)

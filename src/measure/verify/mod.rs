@@ -98,3 +98,53 @@ fn claim(next: &AtomicUsize) -> Option<(usize, &'static Check)> {
     let index = next.fetch_add(1, Ordering::Relaxed);
     CHECKS.get(index).map(|check| (index, check))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::broken::with_restitution_times;
+
+    /// Titles of the checks that fail under a law of that restitution, but for `left_out`.
+    fn failing(pairs: f64, walls: f64, left_out: &[&str]) -> Vec<&'static str> {
+        let lab = Lab::new(Depth::Quick, &|| true);
+        let fails = |check: &&Check| check.rows(&lab).map_or(true, |rows| !rows.iter().all(Row::passes));
+        let checks = CHECKS.iter().filter(|check| !left_out.contains(&check.title));
+        with_restitution_times(pairs, walls, || checks.filter(fails).map(|check| check.title).collect())
+    }
+
+    /// What takes most of the time; `verify --quick` itself is a test of its own.
+    const GASES: [&str; 3] = ["hard spheres", "Haff's law", "equipartition"];
+
+    #[test]
+    fn under_the_right_law_every_check_has_rows_that_pass_and_names_that_fit() {
+        let lab = Lab::new(Depth::Quick, &|| true);
+        for check in CHECKS.iter().filter(|check| !GASES.contains(&check.title)) {
+            let rows = check.rows(&lab).expect("a result");
+            let fine = |row: &Row| row.passes() && row.what.chars().count() <= 28;
+            assert!(!rows.is_empty() && rows.iter().all(fine), "{rows:?}");
+        }
+    }
+
+    #[test]
+    fn whatever_pairs_decide_fails_if_they_lose_a_hundredth_more() {
+        // In neither scene of the time reversal do spheres meet before it turns.
+        let expected = ["Galperin's billiard", "Newton's cradle", "hard spheres", "Haff's law", "golden hashes"];
+        assert_eq!(failing(0.99, 1.0, &["equipartition"]), expected);
+    }
+
+    #[test]
+    fn whatever_walls_decide_fails_if_they_take_a_hundredth_more() {
+        let expected =
+            ["bouncing ball", "Galperin's billiard", "order in the tolerance", "time reversal", "golden hashes"];
+        assert_eq!(failing(1.0, 0.99, &GASES), expected);
+    }
+
+    #[test]
+    fn who_is_told_not_to_go_on_has_no_result() {
+        let lab = Lab::new(Depth::Quick, &|| false);
+        let mut told = Vec::new();
+        verify(lab, 2, |(index, outcome)| told.push((index, outcome == Err(Trouble::Interrupted))));
+        told.sort_unstable();
+        assert_eq!(told, (0..CHECKS.len()).map(|index| (index, true)).collect::<Vec<_>>());
+    }
+}

@@ -95,11 +95,11 @@ impl<D: Detector> Exact<D> {
         (plan.crossing, plan.way) = (self.now + crossing, way);
         let walls = cells.walls_near(cube).iter().map(|&wall| wall as usize);
         // pairs first where that is quick: what they are to meet soon spares most walls the search for edges
-        let count = if D::SOLVES {
-            self.pairs(seat, path, &mut near, plan) + self.walls(model, seat, path, walls, plan)
-        } else {
-            self.walls(model, seat, path, walls, plan) + self.pairs(seat, path, &mut near, plan)
-        };
+        let early = if D::SOLVES { self.pairs(seat, path, &mut near, plan) } else { 0 };
+        let mut count = early + self.walls(model, seat, path, walls, plan);
+        if !D::SOLVES {
+            count += self.pairs(seat, path, &mut near, plan);
+        }
         self.near = near;
         count
     }
