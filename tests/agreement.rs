@@ -89,11 +89,33 @@ fn the_first_impact_of_each_scene_is_found_to_first_order() {
 #[test]
 fn a_state_beyond_the_range_of_numbers_is_reported_and_never_shown() {
     let bodies = vec![sphere(DVec3::ZERO, DVec3::X, 0.5), sphere(DVec3::Y * 9.0, DVec3::X * 1e307, 0.5)];
-    let mut run = Simulation::new(&scene(DVec3::ZERO, ELASTIC, Vec::new(), bodies), paper(1.0, 1e-3));
-    let stall = run_to(&mut run, 1e3, u64::MAX).expect("1e307 m/s leave f64 within 18 s");
-    assert_eq!((stall.kind, stall.time), ("not-finite", run.time()));
-    assert!(stall.reason.starts_with("Sphere 1 "), "{}", stall.reason);
-    assert!(run.state().x.iter().all(|x| x.is_finite()));
+    let fast = scene(DVec3::ZERO, ELASTIC, Vec::new(), bodies);
+    for &method in Method::ALL {
+        let mut run = Simulation::new(&fast, Settings { method, ..paper(1.0, 1e-3) });
+        let stall = run_to(&mut run, 1e3, u64::MAX).expect("1e307 m/s leave f64 within 18 s");
+        assert_eq!((stall.kind, stall.time), ("not-finite", run.time()), "{method:?}");
+        assert!(stall.reason.starts_with("Sphere 1 "), "{method:?}: {}", stall.reason);
+        assert!(run.state().x.iter().all(|x| x.is_finite()), "{method:?}");
+    }
+}
+
+#[test]
+fn an_impact_that_sends_a_sphere_out_of_range_is_reported_with_sphere_time_and_cause() {
+    // A sphere at rest is struck by one of 1e12 times its mass, and goes off nearly twice as fast: at 1.6e75 m/s.
+    let mut heavy = sphere(DVec3::NEG_X * 8e74, DVec3::X * 8e74, 0.5e74);
+    heavy.mass = 1e12;
+    let struck = scene(DVec3::ZERO, ELASTIC, Vec::new(), vec![sphere(DVec3::ZERO, DVec3::ZERO, 0.5e74), heavy]);
+    for method in [Method::Swept, Method::Exact] {
+        let mut run = Simulation::new(&struck, Settings { method, ..paper(0.1, 1e-3) });
+        let stall = run_to(&mut run, 10.0, u64::MAX).expect("out of range");
+        // They touch when 7e74 m of the way are gone.
+        assert!(stall.kind == "not-finite" && (stall.time - 7.0 / 8.0).abs() < 1e-3, "{method:?}: {stall:?}");
+        assert!(
+            stall.reason.contains("Sphere 0 ") && stall.reason.contains("a contact"),
+            "{method:?}: {}",
+            stall.reason
+        );
+    }
 }
 
 #[test]

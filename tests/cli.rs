@@ -101,7 +101,7 @@ fn completions_know_every_command_and_option() {
 fn the_manual_page_has_every_command_and_the_exit_codes() {
     let page = carom(&["man"]).succeeds().out;
     assert!(page.contains(".TH carom 1"), "{page}");
-    for command in ["LIST", "SHOW", "METHODS", "CHECK", "RUN", "RENDER", "COMPLETIONS", "MAN"] {
+    for command in ["LIST", "SHOW", "METHODS", "CHECK", "RUN", "RENDER", "MEASURE", "COMPLETIONS", "MAN"] {
         assert!(page.contains(&format!(".SH \"CAROM {command}\"")), "{command} is not in the manual page");
     }
     assert!(page.contains("128 + n"), "{page}");

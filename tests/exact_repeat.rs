@@ -120,6 +120,87 @@ proptest! {
     }
 }
 
+/// A run that goes on where another one is, from plain data alone.
+fn again(scene: &Scene, run: &Simulation) -> Simulation {
+    let (mut frozen, state) = (scene.clone(), run.state());
+    for (body, (x, v)) in frozen.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
+        (body.x, body.v) = (*x, *v);
+    }
+    Simulation::resumed(&frozen, run.settings(), run.time(), &run.transient())
+}
+
+#[test]
+fn a_run_continues_bit_for_bit_from_where_another_one_was_and_how_it_began() {
+    let gas = Scene { gravity: support::G, ..gas(100, 8, 1.0) };
+    for (scene, until) in SCENES.map(|(name, until)| (open(name), until)).into_iter().chain([(gas, 2.0)]) {
+        let name = &scene.name;
+        let expected = whole(&scene, until, 0.05);
+        let mut run = Simulation::new(&scene, exact(0.05));
+        for share in [0.0, 0.1, 0.37, 0.6, 0.95] {
+            assert_eq!(run_to(&mut run, share * until, u64::MAX), None);
+            let mut next = again(&scene, &run);
+            assert_eq!((next.state(), next.time()), (run.state(), run.time()), "{name}");
+            // Frame by frame in step, events too; then in slices to the end; and a continuation can be continued.
+            let mut original = run.clone();
+            original.record_events(true);
+            next.record_events(true);
+            original.take_events();
+            next.take_events();
+            for _ in 0..3 {
+                assert_eq!(original.advance(Until::Frame, u64::MAX), next.advance(Until::Frame, u64::MAX));
+                assert_eq!((next.state(), next.step()), (original.state(), original.step()), "{name}");
+                assert_eq!(
+                    (next.take_events(), next.contacts()),
+                    (original.take_events(), original.contacts()),
+                    "{name}"
+                );
+            }
+            let mut third = again(&scene, &next);
+            for run in [&mut next, &mut third] {
+                assert_eq!(run_to(run, until, 1000), None);
+                assert_eq!(run.at(until).hash(), expected.hash(), "{name} from {} s", share * until);
+            }
+        }
+    }
+}
+
+#[test]
+fn swept_runs_continue_bit_for_bit_too_unless_their_tolerance_was_changed() {
+    let swept = |tolerance| Settings { method: Method::Swept, dt: 0.05, tolerance };
+    let scene = open("paper-3");
+    let mut run = Simulation::new(&scene, swept(1e-6));
+    assert_eq!(run_to(&mut run, 3.0, u64::MAX), None);
+    let mut next = again(&scene, &run);
+    for run in [&mut run, &mut next] {
+        assert_eq!(run_to(run, 9.0, u64::MAX), None);
+    }
+    assert_eq!(next.at(9.0).hash(), run.at(9.0).hash());
+    run.set_settings(swept(1e-9));
+    // Then they begin anew from t, x and v: to rounding the same, no more.
+    assert!(run.transient().is_empty());
+    let mut next = again(&scene, &run);
+    for run in [&mut run, &mut next] {
+        assert_eq!(run_to(run, 12.0, u64::MAX), None);
+    }
+    let error = (run.at(12.0).x[0] - next.at(12.0).x[0]).length();
+    // Rounding, 1e-15 m, grows by 2e8 over twenty seconds of this scene at most.
+    assert!(error <= 1e-6, "{error:e} m");
+}
+
+#[test]
+fn a_run_begun_by_the_other_method_continues_from_there() {
+    let scene = open("paper-3");
+    let mut run = Simulation::new(&scene, support::paper(0.01, 1e-3));
+    assert_eq!(run_to(&mut run, 2.0, u64::MAX), None);
+    run.set_settings(exact(0.05));
+    assert_eq!(run_to(&mut run, 3.0, u64::MAX), None);
+    let mut next = again(&scene, &run);
+    for run in [&mut run, &mut next] {
+        assert_eq!(run_to(run, 9.0, u64::MAX), None);
+    }
+    assert_eq!(next.at(9.0).hash(), run.at(9.0).hash());
+}
+
 /// The scene as it stands, going back the way it came.
 fn reversed(scene: &Scene, state: &State) -> Scene {
     let mut scene = scene.clone();

@@ -3,6 +3,9 @@
 //! `cargo test --test extremes -- --nocapture` prints it. Each cell says what was found; what must hold for it, and of
 //! `paper` what fails and how, is checked while it is filled in.
 
+// The table goes to whoever asks for it with `--nocapture`.
+#![allow(clippy::print_stdout)]
+
 mod support;
 
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
@@ -139,15 +142,14 @@ fn dt_1e_12(method: Method) -> Cell {
 fn dt_1e6(method: Method) -> Cell {
     let mut run = start(&paper_scene(0), method, 1e6, 1e-3);
     run.advance(Until::Time(20.0), u64::MAX);
+    let (t, y) = (run.time(), run.state().x[0].y);
     if method == Method::Paper {
         // −9.8 · 10⁶ m/s for 10⁶ s, in one frame, with nothing in the way.
-        let y = run.state().x[0].y;
         return must(y < -9e12, format!("tunnels to y = {y:.0e} m"));
     }
-    let (state, room) = (run.at(20.0), dvec3(5.0, 10.0, 17.5));
-    let inside = state.x[0].abs().cmple(room).all() && state.x[0].y > 0.499;
-    let energy = run.energy();
-    must(inside && energy <= run.initial_energy(), format!("y = {:.3} m after 20 s", state.x[0].y))
+    // Within the tolerance of a rest on the floor, and nothing gained on the way.
+    let rests = (y - 0.5).abs() < 1e-3 && run.energy() <= run.initial_energy();
+    must(rests, format!("y = {y:.3} m at {t:.0e} s"))
 }
 
 /// How many of twenty spheres pass a wall at this speed, m/s, started so that frames end at all distances from it.
@@ -200,7 +202,7 @@ fn unlike_masses(method: Method) -> Cell {
         // 1e12 kg over 1 kg leave four digits.
         _ => drift < 1e-6,
     };
-    let note = if method == Method::Paper { ", no weight passed on" } else { "" };
+    let note = if method == Method::Paper { ", holds 9.8 N" } else { "" };
     must(holds, format!("drift {drift:.0e} m{note}"))
 }
 
@@ -227,14 +229,14 @@ fn huge(method: Method) -> Cell {
 fn far_away(method: Method) -> Cell {
     let at = dvec3(1e9, 1e9, -1e9);
     let ground = Wall { shape: carom::geometry::Parallelogram { center: at, ..floor(10.0).shape }, color: None };
-    let mut run = start(&scene(G, PAPER_LAW, vec![ground], vec![still(at + DVec3::Y * 3.0)]), method, 0.01, 1e-3);
+    let mut run = start(&scene(G, PAPER_LAW, vec![ground], vec![still(at + DVec3::Y * 3.0)]), method, 0.001, 1e-3);
     go(&mut run, 20.0)?;
     let gap = run.at(20.0).x[0].y - at.y - 0.5;
     let found = impacts(&mut run);
     let holds = match method {
         Method::Paper => gap.abs() < 1e-3,
-        // The same drop at the origin: coordinates have steps of 1.2e-7 m here.
-        _ => gap.abs() < 1e-3 && found.abs_diff(20) < 5,
+        // 7 m/s · 0.8ⁿ reaches 0.1 m/s with the 20th impact; coordinates have steps of 1.2e-7 m here.
+        _ => gap.abs() < 1e-3 && found.abs_diff(20) <= 1,
     };
     must(holds, format!("gap {gap:.0e} m, {found} impacts"))
 }

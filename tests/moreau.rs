@@ -205,7 +205,8 @@ fn a_pyramid_with_gaps_settles_and_then_does_not_drift() {
     let after = run.state();
     let drift = after.x.iter().zip(&settled.x).map(|(x, y)| x.distance(*y)).fold(0.0, f64::max);
     assert!(drift <= 1e-12, "drifted by {drift:e} m");
-    assert!(penetration(&scene, &after.x).1 <= 1e-11, "{:e} m deep", penetration(&scene, &after.x).1);
+    // What the solver may leave: 1e-8 of rest_speed + 2 g dt, over a frame.
+    assert!(penetration(&scene, &after.x).1 <= 3e-11, "{:e} m deep", penetration(&scene, &after.x).1);
     assert_eq!(run.tallies().unconverged, 0);
 }
 

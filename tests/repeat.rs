@@ -3,7 +3,7 @@
 mod support;
 
 use carom::measure::verify::{Depth, GOLDEN, Golden, Lab};
-use carom::physics::{Progress, Scene, Simulation, State, Until};
+use carom::physics::{Method, Progress, Scene, Settings, Simulation, State, Until};
 use proptest::{prelude::*, test_runner::RngSeed};
 use support::{gas, paper, paper_scene, run_to};
 
@@ -165,6 +165,27 @@ fn every_build_makes_these_bits() {
     };
     let list: Vec<String> = found.iter().map(line).collect();
     assert!(found == GOLDEN, "this build makes\n{}\ninstead of\n{GOLDEN:x?}", list.join("\n"));
+}
+
+/// The same by `moreau`, as the scene asks for it or in frames of 0.01 s.
+const GOLDEN_CROWDS: [(&str, f64, u64); 4] = [
+    ("inelastic-666", 1.0, 0x89a59f55f5d88d3a),
+    ("elastic-666", 1.0, 0xb9cb63aa2bc3a24c),
+    ("stack", 5.0, 0xb9b6e822f11558ae),
+    ("paper-2", 10.0, 0x90cf247097b99012),
+];
+
+#[test]
+fn every_build_makes_these_bits_of_crowds() {
+    let end = |(name, until, _): (&'static str, f64, u64)| {
+        let scene = carom::scene::open(name).expect("a built-in scene").scene;
+        let mut run = Simulation::new(&scene, Settings { method: Method::Moreau, dt: 0.01, ..scene.solver });
+        assert_eq!(run_to(&mut run, until, u64::MAX), None, "{name}");
+        (name, until, run.at(until).hash())
+    };
+    let found = GOLDEN_CROWDS.map(end);
+    let list: Vec<_> = found.iter().map(|(n, t, hash)| format!("    ({n:?}, {t:?}, {hash:#018x}),")).collect();
+    assert!(found == GOLDEN_CROWDS, "this build makes\n{}\ninstead of\n{GOLDEN_CROWDS:x?}", list.join("\n"));
 }
 
 proptest! {

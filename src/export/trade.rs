@@ -85,8 +85,38 @@ fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
     if found != wanted {
         return Err(format!("{line}: {found} cells, where {wanted} are wanted"));
     }
-    let row = record.deserialize(None).map_err(|error| format!("{line}: {}", cell(&error, record)))?;
-    Ok((line, row))
+    let row: TradeRow = record.deserialize(None).map_err(|error| format!("{line}: {}", cell(&error, record)))?;
+    match improper(&row) {
+        Some(what) => Err(format!("{line}: {what}")),
+        None => Ok((line, row)),
+    }
+}
+
+/// What no measure writes, but a file may hold: numbers that are none or negative, text that a terminal would obey.
+fn improper(row: &TradeRow) -> Option<String> {
+    let numbers = [
+        ("dt", row.dt),
+        ("tolerance", row.tolerance),
+        ("until", Some(row.until)),
+        ("horizon", row.horizon),
+        ("position_error", row.position_error),
+        ("impact_time_error", row.impact_time_error),
+        ("energy_error", row.energy_error),
+        ("cpu_per_s", row.cpu_per_s),
+        ("cpu_spread", row.cpu_spread),
+    ];
+    let wrong = numbers.iter().find(|(_, value)| value.is_some_and(|value| value.is_nan() || value < 0.0));
+    if let Some((column, value)) = wrong {
+        return Some(format!("{column} is {:?}; wanted is a number from 0", value.unwrap_or(f64::NAN)));
+    }
+    let texts = [("scene", &row.scene), ("method", &row.method), ("note", &row.note)];
+    let (column, text) = texts.iter().find(|(_, text)| text.contains(is_unprintable))?;
+    Some(format!("{column} is {text:?}; control characters are refused"))
+}
+
+fn is_unprintable(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
 /// Which cell of a row is wrong, and what stands in it.
@@ -154,6 +184,10 @@ mod tests {
             (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
             (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
             (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
+            (good.replace("1e300", "NaN"), &["2: ", "cpu_per_s is NaN"]),
+            (good.replace("20.0", "-1"), &["2: ", "until is -1"]),
+            (good.replace("stalled", "\u{1b}[2J"), &["2: ", "note", "control characters"]),
+            (good.replace("stalled", "\u{202e}"), &["2: ", "note", "control characters"]),
         ] {
             let error = read_trade(text.as_bytes()).expect_err(&text);
             assert!(words.iter().all(|word| error.contains(word)), "{error}");

@@ -66,7 +66,7 @@ fn table(rows: &[TradeRow], best: &[usize]) -> String {
 }
 
 fn cells(row: &TradeRow) -> String {
-    let knob = |value: Option<f64>| value.map(|value| format!("{value:e}")).unwrap_or_default();
+    let knob = |value: Option<f64>| value.map(power).unwrap_or_default();
     let figure = |value: Option<f64>| value.map_or("-".into(), |value| short(value, 1));
     format!(
         "{:6} {:4} {:5} {:>7} {:>7} {:>7} {:>7} {:>5} {:>5} {:>7} {:>3}",
@@ -119,10 +119,15 @@ pub(super) fn plain(seconds: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').into()
 }
 
+/// A knob's value with its power of ten; 0 is 0.
+fn power(value: f64) -> String {
+    if value == 0.0 { "0".into() } else { format!("{value:e}") }
+}
+
 /// A setting in words.
 pub(super) fn setting(method: &str, dt: Option<f64>, tolerance: Option<f64>) -> String {
-    let dt = dt.map(|dt| format!(", dt {dt:e} s")).unwrap_or_default();
-    let tolerance = tolerance.map(|tolerance| format!(", tolerance {tolerance:e}")).unwrap_or_default();
+    let dt = dt.map(|dt| format!(", dt {} s", power(dt))).unwrap_or_default();
+    let tolerance = tolerance.map(|tolerance| format!(", tolerance {}", power(tolerance))).unwrap_or_default();
     format!("{method}{dt}{tolerance}")
 }
 

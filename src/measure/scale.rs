@@ -54,7 +54,7 @@ mod tests {
         assert_eq!(scale, Scale { low: -5, high: 0, zero: false });
         assert_eq!((scale.place(1e-5), scale.place(1.0)), (0.0, 1.0));
         assert_eq!(scale.ticks(10).len(), 6);
-        assert_eq!(scale.ticks(3).iter().map(|tick| tick.1.as_str()).collect::<Vec<_>>(), ["1e0", "1e-3"]);
+        assert_eq!(scale.ticks(3).iter().map(|tick| tick.1.as_str()).collect::<Vec<_>>(), ["1e0", "1e-2", "1e-4"]);
     }
 
     #[test]

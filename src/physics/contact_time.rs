@@ -15,6 +15,9 @@ use super::motion::normal_velocity;
 use super::parts::part_ahead;
 use crate::roots::{bound, bracketed, monotone, value};
 
+/// An approach that would go no deeper than this, relative to the coordinates, before it turns back is none: 8 ulp.
+const GRAZE: f64 = 8.0 * f64::EPSILON;
+
 /// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Path {
@@ -211,7 +214,9 @@ pub fn straight_pair(x: DVec3, v: DVec3, reach: f64) -> Option<f64> {
     let c = x.length_squared() - reach * reach;
     if c <= 0.0 {
         // the handler's own expression decides whether it is an approach
-        return (pair_normal_velocity(x, v) < 0.0).then_some(0.0);
+        let closing = pair_normal_velocity(x, v);
+        let path = Path { x, v, a: DVec3::ZERO };
+        return (closing < 0.0 && !pair_grazes(&path, closing)).then_some(0.0);
     }
     let discriminant = b * b - v.length_squared() * c;
     (discriminant > 0.0).then(|| c / (discriminant.sqrt() - b))
@@ -223,9 +228,28 @@ pub fn pair_normal_velocity(x: DVec3, v: DVec3) -> f64 {
     normal_velocity(v, DVec3::ZERO, x / x.length())
 }
 
+/// Whether an approach turns into a retreat by itself before the gap has shrunk by what rounding leaves of coordinates:
+/// then it is none. Where a sphere is pressed against one body and slides past another, rounding alone would otherwise
+/// drive it into the one and the other in turn, for ever at one instant.
+///
+/// `closing` < 0 is v_n (m/s), `bends` how fast it grows (m/s²), at a radius of curvature `r` (m) and coordinates of
+/// `size` (m); `v` (m/s) and `a` (m/s²) bound how fast `bends` changes: it must still be positive when v_n reaches 0.
+fn grazes(closing: f64, bends: f64, v: f64, a: f64, r: f64, size: f64) -> bool {
+    let jerk = 3.0 * v * (a + v * v / r) / r;
+    bends > 0.0 && closing * closing <= 2.0 * bends * GRAZE * size && -2.0 * jerk * closing <= bends * bends
+}
+
+/// The same for a pair; `path` is that of one centre seen from the other, now.
+fn pair_grazes(path: &Path, closing: f64) -> bool {
+    let (distance, speed) = (path.x.length(), path.v.length());
+    let bends = path.x.dot(path.a) / distance + (speed * speed - closing * closing) / distance;
+    grazes(closing, bends, speed, path.a.length(), distance, distance)
+}
+
 fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
     let c = distance_polynomial(path, reach);
-    if c[0] <= 0.0 && pair_normal_velocity(path.x, path.v) < 0.0 {
+    let closing = pair_normal_velocity(path.x, path.v);
+    if c[0] <= 0.0 && closing < 0.0 && !pair_grazes(path, closing) {
         return Some(0.0);
     }
     let (falls, count) = quartic_falls(&c, before);
@@ -238,6 +262,9 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     let (x, v) = (path.at(t), path.velocity(t));
     let closing = pair_normal_velocity(x, v);
     if closing < 0.0 {
+        if pair_grazes(&Path { x, v, a: path.a }, closing) {
+            return None;
+        }
         let polished = t - (x.length() - reach) / closing;
         return Some(if (polished - t).abs() <= 1e-6 * t { polished } else { t });
     }
@@ -282,7 +309,8 @@ impl Search<'_> {
     /// The earliest of all candidates that hold: faces first, since they bound the time for the quartics.
     fn everywhere(&self, height: [f64; 3]) -> Option<f64> {
         let now = touch(self.face, self.path.x, self.r);
-        if now.gap <= 0.0 && normal_velocity(self.path.v, DVec3::ZERO, now.normal) < 0.0 {
+        let closing = normal_velocity(self.path.v, DVec3::ZERO, now.normal);
+        if now.gap <= 0.0 && closing < 0.0 && !self.grazes(0.0, &now, closing) {
             return Some(0.0);
         }
         let mut best = Best { time: self.before, found: None };
@@ -393,7 +421,7 @@ impl Search<'_> {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
         if closing < 0.0 {
-            return Some(t);
+            return (!self.grazes(t, at, closing)).then_some(t);
         }
         if closing > 1e-13 * (self.path.v.length() + v.length()) {
             return None;
@@ -402,6 +430,20 @@ impl Search<'_> {
         let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);
         let bends = at.normal.dot(self.path.a) + curvature(self.face, ahead, at.normal, v, self.r);
         (bends < 0.0).then(|| t - 2.0 * closing / bends)
+    }
+
+    /// [`grazes`] for a touch at `t`.
+    fn grazes(&self, t: f64, at: &Touch, closing: f64) -> bool {
+        let (x, v, a) = (self.path.at(t), self.path.velocity(t), self.path.a);
+        let size = x.abs().max_element().max(self.r);
+        let most = a.length() + v.length_squared() / self.r;
+        if closing * closing > 2.0 * most * GRAZE * size {
+            return false;
+        }
+        // as in `approached`: over an edge a fast sphere leaves what it was pressed against
+        let ahead = part_ahead(self.face, x, v, a, self.r);
+        let bends = at.normal.dot(a) + curvature(self.face, ahead, at.normal, v, self.r);
+        grazes(closing, bends, v.length(), a.length(), self.r, size)
     }
 
     /// What rounding may leave of a gap that is meant to be 0, m: some hundred ulp of the coordinates and the path.

@@ -99,9 +99,11 @@ trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
-    /// What the next frame needs beside x and v: impulses that act in it, N s by sphere; by `moreau`, what held.
+    /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
+    /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere;
+    /// `moreau`: what held.
     fn transient(&self, model: &Model) -> Vec<DVec3>;
-    /// Right after [`Engine::begin`]: with what [`Engine::transient`] said instead of its own.
+    /// Right after [`Engine::begin`]: continues the run whose transient this was.
     fn continue_with(&mut self, transient: &[DVec3]);
     /// The state for another method to begin with: pending impulses are already in its velocities.
     fn hand_over(&self, model: &Model) -> State;
@@ -160,22 +162,23 @@ impl Simulation {
         let model = Model::new(scene);
         let mut log = Log::default();
         let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
-        let initial_energy = model.initial.energy(&model);
-        Simulation { model, settings, engine, log, initial_energy, stall: None }
+        let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
+        Simulation { model, settings, engine, log, initial_energy, stall }
     }
 
     /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
     /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
-    /// then. Tallies count from here.
+    /// then. Tallies count from here. `exact` and `swept` do the run up to here again when it is first told to advance, within
+    /// the work it is given.
     pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
         let mut model = Model::new(scene);
         model.initial.t = t;
         let mut log = Log::default();
         let mut engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
         each!(&mut engine, engine => engine.continue_with(transient));
-        let initial_energy = model.initial.energy(&model);
+        let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
         let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
-        Simulation { model, settings, engine, log, initial_energy, stall: None }
+        Simulation { model, settings, engine, log, initial_energy, stall }
     }
 
     /// Goes on for about `work` units (degree evaluations or events), or to the goal, whichever is first.
@@ -212,9 +215,11 @@ impl Simulation {
         each!(&self.engine, engine => engine.at(&self.model, t))
     }
 
-    /// With t, x and v all that a run continues from: impulses decided at the end of the last frame that act in the
-    /// next, N s by sphere. By `moreau`, as many rows as contacts held in the last frame: sphere, other sphere (or −1
-    /// − wall), impulse in N s.
+    /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
+    /// in the next, N s by sphere. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
+    /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
+    /// then the continuation is the same to rounding only. `moreau`: as many rows as contacts held in the last frame:
+    /// sphere, other sphere (or −1 − wall), impulse in N s.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }
@@ -276,7 +281,7 @@ impl Simulation {
             *engine = Engines::begin(model, settings, state, log);
         }
         self.settings = settings;
-        self.stall = None;
+        self.stall = self.now().runaway(&self.model);
     }
 
     /// All that is constant.

@@ -32,6 +32,16 @@ impl State {
         (0..self.x.len()).map(of).sum()
     }
 
+    /// Whether some sphere is out of the range of numbers, or accelerated so that it would be soon.
+    pub(super) fn runaway(&self, model: &Model) -> Option<Stall> {
+        let begin = "begin with smaller coordinates and speeds";
+        let pulled = "with its acceleration in place of its velocity; begin with smaller forces";
+        (0..self.x.len()).find_map(|i| {
+            let (x, v, a) = (self.x[i], self.v[i], model.acceleration(i));
+            runaway(i, self.t, [x, v], begin).or_else(|| runaway(i, self.t, [x, a], pulled))
+        })
+    }
+
     /// Σ m v, kg m/s, summed in index order.
     pub fn momentum(&self, model: &Model) -> DVec3 {
         self.v.iter().zip(&model.masses).map(|(v, m)| *v * *m).sum()
@@ -63,6 +73,27 @@ pub struct Tallies {
     pub relaxations: u64,
     /// Frames whose complementarity problem `moreau`'s solver left unsolved: their contacts must not be trusted.
     pub unconverged: u64,
+}
+
+/// Largest coordinate (m), speed (m/s) and acceleration (m/s²) with which a run goes on: their fourth powers, of which
+/// contact times are made, are still numbers.
+pub const LARGEST: f64 = 1e75;
+
+/// The one place where motion that is no number, or runs away beyond [`LARGEST`], is found and ends a run: nothing, or the
+/// sphere, the time (s) and the `cause`, which goes on after a colon. The door asks it of all spheres before a method
+/// begins; each method asks it where it has changed a motion.
+pub(super) fn runaway(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Option<Stall> {
+    let held = |u: DVec3| u.abs().cmple(DVec3::splat(LARGEST)).all();
+    if held(x) && held(v) {
+        return None;
+    }
+    let vector = |u: DVec3| format!("({:e}, {:e}, {:e})", u.x, u.y, u.z);
+    let reason = format!(
+        "Sphere {sphere} leaves the range of numbers, {LARGEST:e}, at t = {t} s with x = {} m, v = {} m/s: {cause}.",
+        vector(x),
+        vector(v)
+    );
+    Some(Stall { time: t, kind: "not-finite", reason })
 }
 
 /// Why a run cannot go on.

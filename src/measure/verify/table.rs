@@ -55,8 +55,8 @@ fn value(value: f64, unit: &str) -> String {
     if value.is_nan() {
         return "none".into();
     }
-    let texts = (0..=DIGITS).rev().map(|digits| rounded(value, unit, digits));
-    texts.clone().find(|text| text.chars().count() <= VALUE).or_else(|| texts.last()).unwrap_or_default()
+    let mut texts = (0..=DIGITS).rev().map(|digits| rounded(value, unit, digits));
+    texts.clone().find(|text| text.chars().count() <= VALUE).or_else(|| texts.next_back()).unwrap_or_default()
 }
 
 /// To so many digits after the first.

@@ -12,11 +12,16 @@ use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::motion::{classify, normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
+use crate::physics::state::runaway;
 use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
 /// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
 const COLLAPSE: u32 = 1000;
+
+/// Impacts by then of another contact that belongs to the same collapse, and rests with it: the limit of the chain is
+/// that none of them approaches any longer.
+const COLLAPSE_SHARE: u32 = 100;
 
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
@@ -47,6 +52,8 @@ const CLOCK: f64 = 1e-3;
 pub(super) struct Instant {
     events: u64,
     impacts: BTreeMap<Key, u32>,
+    /// Whether a chain of impacts has collapsed.
+    collapsed: bool,
     /// How often each contact has opened.
     releases: BTreeMap<Key, u32>,
     /// Events in this stretch, and the time when it began, s.
@@ -55,6 +62,11 @@ pub(super) struct Instant {
 }
 
 impl Instant {
+    /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
+    pub(super) fn has_collapsed(&self, key: Key) -> bool {
+        self.collapsed && self.impacts.get(&key).is_some_and(|&count| count > COLLAPSE_SHARE)
+    }
+
     /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
     /// its island, which brings back this one. Held together for a moment, they are solved together.
     pub(super) fn is_stuck(&mut self, key: Key) -> bool {
@@ -82,6 +94,12 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
+    /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
+    /// speed at which they approach or part.
+    pub(super) fn hops_within_rounding(&self, pull: f64) -> bool {
+        self.v_n * self.v_n <= 2.0 * pull * HOP * self.point.abs().max_element().max(self.reach)
+    }
+
     /// The row of this contact: `impulse` in N s, v_n afterwards in m/s.
     pub(super) fn row(&self, time: f64, class: Class, impulse: f64, separation_speed: f64) -> Contact {
         let (kind, a, b) = self.key;
@@ -107,7 +125,7 @@ impl<D: Detector> Exact<D> {
         let Exact { instant, now, .. } = self;
         if time > *now {
             *now = time;
-            instant.events = 0;
+            (instant.events, instant.collapsed) = (0, false);
             if !instant.impacts.is_empty() || !instant.releases.is_empty() {
                 instant.impacts.clear();
                 instant.releases.clear();
@@ -164,9 +182,9 @@ impl<D: Detector> Exact<D> {
     /// The bodies of a contact now, their lines brought to the present.
     pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
         let (kind, a, b) = key;
-        self.bring(a);
+        self.bring(model, a);
         if kind == Kind::Pair {
-            self.bring(b);
+            self.bring(model, b);
         }
         self.seen(model, key, self.now)
     }
@@ -240,12 +258,12 @@ impl<D: Detector> Exact<D> {
             // the flight would last no longer than the clock can tell
             return Class::Rest;
         }
-        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        if pressed && hop <= HOP * meeting.point.abs().max_element().max(meeting.reach) {
-            // the flight would go no higher than coordinates can tell
+        if pressed && meeting.hops_within_rounding(-meeting.a_n) {
             return Class::Rest;
         }
-        if pressed && hop <= SMALL_HOP * meeting.reach && self.bounces_left(model, meeting) > 0.0 {
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        let dies_out = self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
+        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out {
             return Class::Rest;
         }
         let mut law = model.law;
@@ -256,12 +274,20 @@ impl<D: Detector> Exact<D> {
         if class == Class::Collide && restitution < 1.0 && self.instant.events > u64::from(COLLAPSE) {
             let count = self.instant.impacts.entry(meeting.key).or_default();
             *count += 1;
-            if *count > COLLAPSE {
+            self.instant.collapsed |= *count > COLLAPSE;
+            if self.instant.has_collapsed(meeting.key) {
                 log.tallies.collapses += 1;
                 return Class::Rest;
             }
         }
         class
+    }
+
+    /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
+    /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end.
+    fn hums(&self, model: &Model, (kind, a, _): Key) -> bool {
+        let law = &model.law;
+        kind == Kind::Wall && law.wall_restitution == 1.0 && (law.tangential == 1.0 || self.rests.count(a) > 0)
     }
 
     /// Rounding of the clock, s.
@@ -343,16 +369,10 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    /// The second of two places where a number that is none is caught.
+    /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
         let line = &self.flight.lines[i];
-        if line.x.is_finite() && line.v.is_finite() {
-            return Ok(());
-        }
-        let reason = format!(
-            "The motion of sphere {i} is no longer a finite number at t = {} s; its speeds or distances are too large for f64.",
-            self.now
-        );
-        Err(Stall { time: self.now, kind: "non-finite", reason })
+        let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
+        runaway(i, self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

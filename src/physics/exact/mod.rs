@@ -16,6 +16,7 @@ mod load;
 
 mod prediction;
 mod queue;
+mod replay;
 mod rest;
 mod roots;
 
@@ -32,6 +33,7 @@ use impact::Instant;
 use islands::Rests;
 use prediction::Plan;
 use queue::Queue;
+use replay::{Origin, Replay};
 pub(super) use roots::Roots;
 
 /// What the method is.
@@ -65,6 +67,10 @@ pub(super) struct Exact<D> {
     instant: Instant,
     /// Gaps computed since the log was last told.
     evaluations: u64,
+    origin: Origin,
+    /// How the run began that this one has yet to catch up with.
+    resumes: Option<State>,
+    replay: Option<Box<Replay<D>>>,
 }
 
 /// What one single-step shows: up to the next event, or dt.
@@ -89,6 +95,7 @@ enum Turn {
 impl<D: Detector> Engine for Exact<D> {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact<D> {
         let count = model.len();
+        let origin = if state == model.initial { Origin::Model } else { Origin::State(Box::new(state.clone())) };
         let mut exact = Exact {
             settings,
             detector: D::new(settings),
@@ -102,6 +109,9 @@ impl<D: Detector> Engine for Exact<D> {
             rests: Rests::default(),
             instant: Instant::default(),
             evaluations: 0,
+            origin,
+            resumes: None,
+            replay: None,
         };
         exact.load(model, log);
         exact.flight.forget();
@@ -109,6 +119,9 @@ impl<D: Detector> Engine for Exact<D> {
     }
 
     fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
+        if self.resumes.is_some() && !self.catch_up(model, work) {
+            return Progress::Yielded;
+        }
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -134,6 +147,7 @@ impl<D: Detector> Engine for Exact<D> {
         self.settings = settings;
         if !D::SOLVES && !same {
             self.detector = D::new(settings);
+            self.origin = Origin::Lost;
             (0..model.len()).for_each(|i| self.predict(model, i));
         }
     }
@@ -150,18 +164,28 @@ impl<D: Detector> Engine for Exact<D> {
         self.frame.step
     }
 
-    fn at(&self, _: &Model, t: f64) -> State {
+    fn at(&self, model: &Model, t: f64) -> State {
+        if self.resumes.is_some() {
+            return model.initial.clone();
+        }
         let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
         let mut state = self.flight.then(t);
-        self.rests.bend(&mut state);
+        self.rests.bend(model, &mut state);
         state
     }
 
     fn transient(&self, model: &Model) -> Vec<DVec3> {
-        vec![DVec3::ZERO; model.len()]
+        match (&self.resumes, &self.origin) {
+            (Some(state), _) => replay::written(state),
+            (None, Origin::Model) => replay::written(&model.initial),
+            (None, Origin::State(state)) => replay::written(state),
+            (None, Origin::Lost) => Vec::new(),
+        }
     }
 
-    fn continue_with(&mut self, _: &[DVec3]) {}
+    fn continue_with(&mut self, transient: &[DVec3]) {
+        self.resumes = replay::read(transient, self.stamps.len()).filter(|origin| origin.t <= self.frame.time);
+    }
 
     fn hand_over(&self, model: &Model) -> State {
         self.at(model, self.frame.time)
@@ -172,6 +196,7 @@ impl<D: Detector> Exact<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.flight.forget();
+        self.rests.forget();
         log.contacts.clear();
         log.probes.clear();
     }
@@ -181,7 +206,10 @@ impl<D: Detector> Exact<D> {
         self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
         log.tallies.frames += 1;
-        log.tallies.evaluations += std::mem::take(&mut self.evaluations);
+        let looked_at = std::mem::take(&mut self.evaluations);
+        if D::SOLVES {
+            log.tallies.evaluations += looked_at;
+        }
         log.tallies.inexact_time = self.rests.curved_time(end);
         Turn::Frame
     }

@@ -176,9 +176,8 @@ impl Moreau {
     fn close(&mut self, model: &Model, log: &mut Log, converged: bool) -> Result<(), Stall> {
         self.stage = Stage::Between;
         let h = self.settings.dt;
-        let ends = |i: usize| self.end.x[i] + self.solution[i] * h;
-        if let Some(lost) = (0..model.len()).find(|&i| !(ends(i).is_finite() && self.solution[i].is_finite())) {
-            return Err(self.lost(lost));
+        if let Some(stall) = self.runaway(&self.solution) {
+            return Err(stall);
         }
         std::mem::swap(&mut self.start, &mut self.end);
         self.end.t = self.start.t + h;

@@ -28,6 +28,7 @@ use glam::DVec3;
 use super::contact::Key;
 use super::log::Log;
 use super::overlap::{self, Finder};
+use super::state::runaway;
 use super::{
     Class, Contact, Description, Engine, Kind, Method, Model, Progress, Settings, Stall, State, Until, motion,
 };
@@ -213,15 +214,14 @@ impl Moreau {
         Contact { class: Class::Release, ..self.contact_now(model, key) }
     }
 
-    /// The one place where a state that is no longer finite is caught: the frame is given up, so that nobody sees it.
-    fn lost(&self, sphere: usize) -> Stall {
-        let (time, dt) = (self.end.t, self.settings.dt);
-        let reason = format!(
-            "Sphere {sphere} leaves the range of numbers in the frame after t = {time} s, from x = {} m, v = {} m/s \
-             with a step of {dt} s; begin with smaller speeds or take a smaller dt.",
-            self.end.x[sphere], self.end.v[sphere],
-        );
-        Stall { time, kind: "not-finite", reason }
+    /// Why the frame in progress, in which the spheres move at `u` (m/s by sphere), must be given up, if it must: one of
+    /// them leaves the range of numbers.
+    fn runaway(&self, u: &[DVec3]) -> Option<Stall> {
+        let Settings { dt, .. } = self.settings;
+        let cause =
+            format!("a frame of {dt} s from then on sends it there; begin with smaller speeds or take a smaller dt");
+        let ends = self.end.x.iter().zip(u).enumerate();
+        ends.map(|(i, (&x, &u))| (i, [x + u * dt, u])).find_map(|(i, end)| runaway(i, self.end.t, end, &cause))
     }
 
     fn standstill(&self) -> Stall {

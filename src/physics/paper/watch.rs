@@ -1,6 +1,7 @@
 //! What ends a run that cannot go on: a state that is no longer finite, and time that stands still.
 
 use super::super::log::Log;
+use super::super::state::runaway;
 use super::super::{Class, Contact, Kind, Model, Stall, State};
 use super::Paper;
 
@@ -70,19 +71,17 @@ impl Paper {
         Stall { time, kind: "step-too-small", reason }
     }
 
-    /// The one place where a state that is no longer finite is caught. The frame is given up, so that nobody sees it.
+    /// The frame in which a sphere leaves the range of numbers is given up, so that nobody sees it.
     fn quarantine(&mut self, model: &Model) -> Option<Stall> {
         self.residue = 0.0;
         let State { x, v, .. } = &self.end;
-        let lost = (0..x.len()).find(|&i| !(x[i].is_finite() && v[i].is_finite()))?;
-        let (t, dt) = (self.start.t, self.settings.dt);
-        let reason = format!(
-            "Sphere {lost} leaves the range of numbers in the frame after t = {t} s, from x = {} m, v = {} m/s with a \
-             step of {dt} s; begin with smaller speeds or take a smaller dt.",
-            self.start.x[lost], self.start.v[lost],
+        let cause = format!(
+            "a frame of {} s from then on sends it there; begin with smaller speeds or take a smaller dt",
+            self.settings.dt
         );
+        let stall = (0..x.len()).find_map(|i| runaway(i, self.start.t, [x[i], v[i]], &cause))?;
         self.give_up(model);
-        Some(Stall { time: t, kind: "not-finite", reason })
+        Some(stall)
     }
 
     /// Support that cannot hold, or bounces too low for the accepted overlap: each ends frames without end.

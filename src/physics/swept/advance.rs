@@ -94,8 +94,7 @@ impl Advance {
             let wide = seen.gap > 2.0 * near;
             let step = if wide { wide_step(seen, near) } else { self.close_step(sight, seen) }?;
             let next = later(span.now, s, step);
-            // not "next >= before": a step that is no number ends the search too
-            if !(next < span.before) {
+            if next >= span.before || next.is_nan() {
                 return None;
             }
             let last = std::mem::replace(&mut s, next);

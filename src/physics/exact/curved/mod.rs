@@ -15,8 +15,8 @@ mod motion;
 
 use glam::DVec3;
 
-use motion::Motion;
 pub(super) use motion::geometry;
+use motion::{Motion, loaded};
 
 use crate::physics::contact_time::{Part, edge_direction, touch_part};
 use crate::physics::model::Face;
@@ -26,8 +26,12 @@ use crate::physics::support::{Bodies, Resting, Row, Surface, accelerations, bind
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
 const TOLERANCE: f64 = 1e-15;
 
-/// How far a chord may be from the path, in the same measure.
+/// How far a chord may be from the path, in radii, so that what meets it by the chord overlaps by no more than that; but
+/// no less than [`FINEST`].
 const DEPARTURE: f64 = 1e-13;
+
+/// The same in coordinates: 16 ulp.
+const FINEST: f64 = 16.0 * f64::EPSILON;
 
 /// Length of the first arc, in units of the time in which the motion changes.
 const FIRST: f64 = 0.05;
@@ -99,6 +103,8 @@ pub(super) struct Arc {
     pub(super) changes: bool,
     /// A good span for the next arc, s.
     next: f64,
+    /// Which contacts carry a load, and therefore hold.
+    loaded: Vec<bool>,
 }
 
 /// The bodies at one end of an arc, and their accelerations, m/s².
@@ -117,11 +123,24 @@ impl Arc {
 
     /// The arc that goes on from the end of this one.
     pub(super) fn go_on(&self, contacts: &[Closed]) -> Arc {
-        Arc::of(self.at(self.length), contacts, Some(self.next))
+        Arc::of(self.real(self.length, contacts), contacts, Some(self.next))
+    }
+
+    /// The bodies `time` (s) after the arc's beginning, integrated up to there: the polynomial is as good in x, but its v
+    /// is off by its error over its span, which adds up where an arc is interrupted over and over.
+    pub(super) fn real(&self, time: f64, contacts: &[Closed]) -> Vec<Body> {
+        if time <= 0.0 {
+            return self.start.bodies.clone();
+        }
+        if time >= self.span {
+            return self.end.bodies.clone();
+        }
+        Motion::held_by(&self.start.bodies, contacts, &self.loaded).moved(&self.start.bodies, time)
     }
 
     fn of(mut bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
-        let motion = Motion::of(&bodies, contacts);
+        let loaded = loaded(&bodies, contacts);
+        let motion = Motion::held_by(&bodies, contacts, &loaded);
         motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
         let scale = start.time_scale();
@@ -130,8 +149,10 @@ impl Arc {
         for _ in 0..30 {
             let bodies = motion.moved(&start.bodies, span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
-            let mut arc = Arc { start: start.clone(), end, span, length: span, changes: false, next: span };
-            let growth = cube_root(arc.allowance(&motion.moved(&start.bodies, 0.5 * span)).sqrt());
+            let (start, loaded) = (start.clone(), loaded.clone());
+            let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
+            let middle = motion.moved(&arc.start.bodies, 0.5 * span);
+            let growth = cube_root(arc.allowance(&middle).sqrt());
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= 1.0 {
                 arc.cut_short(&motion);
@@ -140,7 +161,7 @@ impl Arc {
             span *= (0.8 * growth).max(0.05);
         }
         // Out of reach of numbers: no motion at all, which the watchdog of the method will notice.
-        Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0 }
+        Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded }
     }
 
     /// How many times the error in the middle, where the bodies really are at `middle`, fits into what is allowed.
@@ -165,7 +186,7 @@ impl Arc {
         let left = self.length - from;
         let of = |(i, body): (usize, &Body)| {
             let path = self.polynomial(i);
-            let reach = |jerk: f64| cube_root(40.0 * DEPARTURE * body.size() / jerk).min(left);
+            let reach = |jerk: f64| cube_root(40.0 * body.departure() / jerk).min(left);
             let now = path.jerk(from).length();
             // A start from rest has no jerk yet.
             reach(now.max(path.jerk(from + reach(now)).length()))
@@ -244,6 +265,11 @@ impl Body {
     /// What errors of its place are measured by, m.
     fn size(&self) -> f64 {
         self.r.max(self.x.abs().max_element())
+    }
+
+    /// How far a chord may be from its path, m.
+    fn departure(&self) -> f64 {
+        (DEPARTURE * self.r).max(FINEST * self.size())
     }
 }
 
@@ -377,7 +403,7 @@ mod tests {
         let corner = face.shape.corners()[2];
         let start = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
         let mut arc = Arc::new(start.clone(), &contacts);
-        let motion = Motion::of(&start, &contacts);
+        let motion = Motion::held_by(&start, &contacts, &loaded(&start, &contacts));
         for _ in 0..5 {
             let mut from = 0.0;
             while from < arc.length {
@@ -404,7 +430,7 @@ mod tests {
         let contacts = [Closed { a: 0, on: On::Wall(&face, Part::Corner(2)) }];
         let corner = face.shape.corners()[2];
         let begin = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
-        let motion = Motion::of(&begin, &contacts);
+        let motion = Motion::held_by(&begin, &contacts, &loaded(&begin, &contacts));
         let go =
             |parts: u32| (0..parts).fold(begin.clone(), |bodies, _| motion.moved(&bodies, 0.1 / f64::from(parts)))[0];
         let (few, many) = (go(10), go(1000));

@@ -13,19 +13,15 @@ pub(super) struct Motion<'a> {
 }
 
 impl<'a> Motion<'a> {
-    pub(super) fn of(bodies: &[Body], contacts: &[Closed<'a>]) -> Motion<'a> {
-        let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
-        let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
-        let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-        let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
-        let forces = accelerations(all, &resting, &[]).multipliers;
-        let loaded = contacts.iter().zip(forces).map(|(contact, force)| (*contact, force > 0.0));
-        let (holding, idle): (Vec<_>, Vec<_>) = loaded.partition(|(_, loaded)| *loaded);
-        let only = |list: Vec<(Closed<'a>, bool)>| list.into_iter().map(|(contact, _)| contact).collect();
-        let holding: Vec<Closed> = only(holding);
+    /// The motion from `bodies` on while the loaded contacts hold.
+    pub(super) fn held_by(bodies: &[Body], contacts: &[Closed<'a>], loaded: &[bool]) -> Motion<'a> {
+        let pick = |wanted: bool| {
+            let of = |(_, loaded): &(&Closed<'a>, &bool)| **loaded == wanted;
+            contacts.iter().zip(loaded).filter(of).map(|(&contact, _)| contact).collect()
+        };
+        let (holding, idle): (Vec<Closed<'a>>, _) = (pick(true), pick(false));
         let gaps = holding.iter().map(|&contact| geometry(bodies, contact).1).collect();
-        Motion { holding, gaps, idle: only(idle), inverse_mass }
+        Motion { holding, gaps, idle, inverse_mass: bodies.iter().map(|body| body.inverse_mass).collect() }
     }
 
     /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
@@ -109,6 +105,16 @@ impl<'a> Motion<'a> {
         });
         loads.chain(rooms).chain(idle).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Which contacts carry a load now.
+pub(super) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
+    let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+    let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+    let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
+    let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
+    let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+    accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
 }
 
 /// Rooms and openings at the beginning of an arc.

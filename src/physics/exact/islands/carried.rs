@@ -20,6 +20,15 @@ impl Load {
     }
 }
 
+impl Rests {
+    /// A frame begins at `time`, s.
+    pub(in crate::physics::exact) fn begin_frame(&mut self, time: f64) {
+        for held in self.held.values_mut() {
+            held.load = Load { since: time, impulse: 0.0, ..held.load };
+        }
+    }
+}
+
 impl<D: Detector> Exact<D> {
     /// The contacts of an island carry these forces (N) from now on.
     pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64]) {
@@ -34,18 +43,15 @@ impl<D: Detector> Exact<D> {
     /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
     /// given in the frame.
     pub(in crate::physics::exact) fn list_rests(&mut self, model: &Model, log: &mut Log, end: f64) {
-        let start = self.frame.time;
-        for key in self.rests.held.keys().copied().collect::<Vec<Key>>() {
-            let Some(held) = self.rests.held.get_mut(&key) else { continue };
-            held.load.since = held.load.since.max(start);
-            let impulse = held.load.given(end);
-            held.load = Load { since: end, impulse: 0.0, ..held.load };
+        let (start, met) = (self.frame.time, log.contacts.len());
+        for (&key, held) in &self.rests.held {
+            let impulse = Load { since: held.load.since.max(start), ..held.load }.given(end);
             let begun = |row: &crate::physics::Contact| row.class == Class::Rest && row.key() == key;
-            if held.announced && !log.contacts.iter().any(begun) {
-                let mut meeting = self.seen(model, key, end);
-                meeting.v_n = 0.0;
-                log.contacts.push(meeting.row(end, Class::Rest, impulse, 0.0));
+            if held.announced && !log.contacts[..met].iter().any(begun) {
+                let row = self.seen(model, key, end).row(end, Class::Rest, impulse, 0.0);
+                log.contacts.push(crate::physics::Contact { approach_speed: 0.0, ..row });
             }
         }
+        self.rests.begin_frame(end);
     }
 }

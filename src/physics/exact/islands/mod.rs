@@ -4,6 +4,7 @@ mod carried;
 mod settling;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc as Shared;
 
 use super::Exact;
 use super::curved::{Arc, Body, Closed, On};
@@ -31,6 +32,8 @@ struct Held {
     announced: bool,
     /// v_n when it was proposed, m/s.
     v_n: f64,
+    /// What its load does to the two bodies, m/s²: they would fall back together with it after a hop.
+    pressure: f64,
     /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
     /// again then, and no rest announced before.
     settles_at: f64,
@@ -50,8 +53,8 @@ struct Island {
 /// A curved motion, and the chord parabola that stands for it now.
 #[derive(Debug, Clone)]
 struct Curve {
-    arc: Arc,
-    contacts: Vec<Contact>,
+    arc: Shared<Arc>,
+    contacts: Shared<[Contact]>,
     /// Where on the arc the chord begins, s.
     offset: f64,
     /// When the chord began, s; infinite once the spheres have been brought off it.
@@ -92,8 +95,8 @@ fn closed<'a>(model: &'a Model, contacts: &[Contact]) -> Vec<Closed<'a>> {
 impl Curve {
     /// The motion of bodies from now on.
     fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<Contact>, now: f64) -> Curve {
-        let arc = Arc::new(bodies, &closed(model, &contacts));
-        Curve { arc, contacts, offset: 0.0, from: now, length: 0.0, changes: false }.chord()
+        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts)));
+        Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
     /// The next chord, on this arc or on the one after it.
@@ -102,7 +105,7 @@ impl Curve {
         if offset < self.arc.length {
             return Curve { offset, from: now, ..self }.chord();
         }
-        let arc = self.arc.go_on(&closed(model, &self.contacts));
+        let arc = Shared::new(self.arc.go_on(&closed(model, &self.contacts)));
         Curve { arc, offset: 0.0, from: now, ..self }.chord()
     }
 
@@ -119,10 +122,23 @@ impl Curve {
         if time < self.length { Curve { length: time, changes: true, ..self } } else { self }
     }
 
-    /// The spheres `time` (s) after the chord's beginning.
+    /// The spheres `time` (s) after the chord's beginning, read from the arc.
     fn at(&self, time: f64) -> Vec<Body> {
         self.arc.at(self.offset + time.min(self.length))
     }
+
+    /// The same, integrated.
+    fn real(&self, model: &Model, time: f64) -> Vec<Body> {
+        self.arc.real(self.offset + time.min(self.length), &closed(model, &self.contacts))
+    }
+}
+
+/// A chord of this frame that is over: its spheres, and until when it was followed, s.
+#[derive(Debug, Clone)]
+struct Past {
+    spheres: Vec<usize>,
+    curve: Curve,
+    until: f64,
 }
 
 /// All resting contacts.
@@ -136,6 +152,8 @@ pub(super) struct Rests {
     island_of: Vec<u32>,
     /// Spheres whose islands must be settled before the clock goes on.
     dirty: Vec<usize>,
+    /// In the order of their ends.
+    past: Vec<Past>,
     curves: usize,
     curved_since: f64,
     curved_time: f64,
@@ -185,6 +203,11 @@ impl Rests {
         self.curved_time + if self.curves > 0 { now - self.curved_since } else { 0.0 }
     }
 
+    /// Counts the time of curved rest from `now` (s) on.
+    pub(super) fn forget_curved_time(&mut self, now: f64) {
+        (self.curved_time, self.curved_since) = (0.0, now);
+    }
+
     fn count_curves(&mut self, now: f64, change: isize) {
         self.curved_time = self.curved_time(now);
         self.curved_since = now;
@@ -206,7 +229,14 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, v_n: meeting.v_n, settles_at: bounces_until, load: Load::default() };
+        let held = Held {
+            part,
+            announced: false,
+            v_n: meeting.v_n,
+            settles_at: bounces_until,
+            pressure: 0.0,
+            load: Load::default(),
+        };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {
@@ -284,18 +314,30 @@ impl Rests {
         self.islands[number as usize] = Some(island);
     }
 
-    /// Puts the spheres of curved islands where their arcs are, in a state read at or after the last event.
-    pub(super) fn bend(&self, state: &mut State) {
-        for island in self.islands.iter().flatten() {
-            let Some(curve) = &island.curve else { continue };
-            if curve.from > state.t {
-                continue;
-            }
-            let bodies = curve.at(state.t - curve.from);
-            for (body, &i) in bodies.iter().zip(&island.spheres) {
-                (state.x[i], state.v[i]) = (body.x, body.v);
-            }
+    /// Puts the spheres of curved islands where they really are, in a state of the last frame: their lines are chords.
+    pub(super) fn bend(&self, model: &Model, state: &mut State) {
+        let over = self.past.iter().filter(|past| state.t < past.until).map(|past| (&past.spheres, &past.curve));
+        let current = self.islands.iter().flatten();
+        let current = current.filter_map(|island| Some((&island.spheres, island.curve.as_ref()?)));
+        let mut real: Vec<(usize, Body)> = Vec::new();
+        for (spheres, curve) in over.chain(current).filter(|(_, curve)| curve.from <= state.t) {
+            real.extend(spheres.iter().copied().zip(curve.real(model, state.t - curve.from)));
         }
+        for (i, body) in real {
+            (state.x[i], state.v[i]) = (body.x, body.v);
+        }
+    }
+
+    /// Remembers a chord that was followed until `now` (s), for states read within the frame.
+    fn keep(&mut self, spheres: &[usize], curve: &Curve, now: f64) {
+        if curve.from < now {
+            self.past.push(Past { spheres: spheres.to_vec(), curve: curve.clone(), until: now });
+        }
+    }
+
+    /// From here on, frames before are forgotten.
+    pub(super) fn forget(&mut self) {
+        self.past.clear();
     }
 }
 

@@ -8,16 +8,18 @@ const PAUSE: f64 = 1e-7;
 
 impl<D: Detector> Exact<D> {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
-    pub(in crate::physics::exact) fn bring(&mut self, i: usize) {
+    pub(in crate::physics::exact) fn bring(&mut self, model: &Model, i: usize) {
         let now = self.now;
         let island = self.rests.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now));
         let Some(Island { spheres, curve: Some(curve), .. }) = island else {
             self.flight.bring(i, now);
             return;
         };
-        let bodies = curve.at(now - curve.from);
+        let (spheres, followed) = (spheres.clone(), curve.clone());
         // the lines are off the chord now: it must not be followed, nor the step be read, any longer
         curve.from = f64::INFINITY;
+        self.rests.keep(&spheres, &followed, now);
+        let bodies = followed.real(model, now - followed.from);
         for (body, &sphere) in bodies.iter().zip(spheres.iter()) {
             self.flight.rewrite(sphere, now, body.x, body.v);
         }
@@ -32,6 +34,10 @@ impl<D: Detector> Exact<D> {
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
             let meeting = self.seen(model, key, self.now);
+            let pressure = self.rests.held.get(&key).map_or(0.0, |held| held.pressure);
+            if meeting.hops_within_rounding(pressure) || self.instant.has_collapsed(key) {
+                continue;
+            }
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.lines[i].v.length() {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
@@ -56,11 +62,12 @@ impl<D: Detector> Exact<D> {
         let Some(island) = self.rests.island(leader) else { return };
         let spheres = island.spheres.clone();
         if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
+            self.rests.keep(&spheres, &curve, now);
             self.follow(&spheres, curve.next(model, now));
             return self.moved(model, &spheres);
         }
         for &i in &spheres {
-            self.bring(i);
+            self.bring(model, i);
         }
         for &i in &spheres {
             let path = self.flight.path(i, now);
@@ -107,7 +114,7 @@ impl<D: Detector> Exact<D> {
     pub(in crate::physics::exact) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
         let spheres = self.rests.take_dirty();
         for &i in &spheres {
-            self.bring(i);
+            self.bring(model, i);
         }
         self.rests.dirty.clear();
         for &i in &spheres {
@@ -148,6 +155,12 @@ impl<D: Detector> Exact<D> {
         for (place, &i) in spheres.iter().enumerate() {
             self.flight.rewrite(i, self.now, bodies[place].x, bodies[place].v);
             self.flight.accelerate(i, settled.a[place]);
+        }
+        for (key, &force) in keys.iter().zip(&settled.forces) {
+            let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
+            if let Some(held) = self.rests.held.get_mut(key) {
+                held.pressure = force * (model.inverse_masses[key.1] + other);
+            }
         }
         self.announce(model, log, keys, &settled);
         self.carry(keys, &settled.forces);
