@@ -43,8 +43,8 @@ pub fn all() -> Vec<Case> {
         case(bouncing, shipped(bouncing), 20.0, bounces.clone()),
         case(elastic, shipped(elastic), 10.0, bounces),
         case(inelastic, shipped(inelastic), 10.0, [&heaps[..], &steps, &harder].concat()),
-        case(gas_3, gas(1000), 5.0, [&[exact(), swept(1e-6)][..], &steps, &[rapier(240, 16, Late)]].concat()),
-        case(gas_4, gas(10_000), 1.0, [&[exact(), swept(1e-6)][..], &steps[..2], &[rapier(240, 16, Late)]].concat()),
+        case(gas_3, gas(1000), 3.0, [&[exact(), swept(1e-6)][..], &steps, &[rapier(240, 16, Late)]].concat()),
+        case(gas_4, gas(10_000), 0.5, [&[exact(), swept(1e-6)][..], &steps[..2], &[rapier(240, 16, Late)]].concat()),
     ]
 }
 

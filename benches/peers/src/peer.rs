@@ -1,8 +1,8 @@
 //! The other engine: `rapier3d-f64`, set up so that it solves the same problem and can show what it is able to.
 //!
-//! Spheres are balls of the scene's mass, walls are thick fixed boxes behind the scene's faces (boxes and not
-//! half-spaces, whose boxes are the whole world: every ball would be looked at against every wall). No friction, no
-//! damping, nothing sleeps. Rotations are locked: without friction nothing would turn, and locked they cost less.
+//! Spheres are balls of the scene's mass, walls are thick fixed boxes behind the scene's faces: half-spaces cost the same
+//! for one ground and more than twice as much for a gas in a box, since every ball is near a half-space. No friction, no
+//! damping, nothing sleeps. Rotations are locked: without friction nothing turns; it costs the same either way.
 
 use std::fmt;
 
