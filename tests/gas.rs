@@ -76,6 +76,18 @@ fn slices_and_looks_change_no_bit_of_a_gas() {
 }
 
 #[test]
+fn so_many_spheres_that_events_are_looked_up_ahead_make_the_same_run_in_slices_too() {
+    let scene = gas(21_000, 13, 1.0);
+    let until = 0.05;
+    let mut whole = Simulation::new(&scene, EXACT);
+    assert_eq!(run_to(&mut whole, until, u64::MAX), None);
+    let mut run = Simulation::new(&scene, EXACT);
+    assert_eq!(run_to(&mut run, until, 17), None);
+    assert_eq!((run.state().hash(), run.tallies()), (whole.state().hash(), whole.tallies()));
+    assert!(run.tallies().impacts > 1000, "{}", run.tallies().impacts);
+}
+
+#[test]
 fn a_gas_keeps_its_energy_and_no_sphere_enters_another() {
     for gravity in [DVec3::ZERO, G] {
         let scene = Scene { gravity, ..gas(1000, 3, 1.0) };

@@ -2,8 +2,6 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
-
 use super::bodies::EXACT;
 use super::{Lab, Trouble};
 use crate::physics::{Class, Contact, ContactLaw, Kind, Scene, Simulation, State};
@@ -84,9 +82,4 @@ impl<'a> Gas<'a> {
     pub(super) fn temperature(&self) -> f64 {
         2.0 * self.run.energy() / (3.0 * self.count)
     }
-}
-
-/// Whether a point is within a cube about the origin of this half edge, m.
-pub(super) fn inside(x: DVec3, half: f64) -> bool {
-    x.abs().max_element() <= half
 }

@@ -2,24 +2,48 @@
 //!
 //! Looking never rewrites a line, so that no display rate changes a bit of the trajectory; what a frame rewrote is kept
 //! until the next one, so that a state within the frame can be read.
+//!
+//! What an event needs of a sphere is one record of two cache lines. Records may lie in another order than the scene's,
+//! neighbours in space side by side: sphere i has the seat s. All that decides anything goes by i, so that no result
+//! depends on where anybody sits; only who walks through neighbours goes by seats.
 
 use glam::DVec3;
 
-use crate::physics::State;
+use super::cells::Cube;
+use super::lanes::Lanes;
+use super::prediction::Plan;
 use crate::physics::contact_time::Path;
 use crate::physics::model::{Model, Pull};
+use crate::physics::{Kind, State};
 
-/// Where a sphere was at its own time: 64 bytes, one cache line.
+/// Where a sphere was at its own time: 64 bytes, one cache line, twice four numbers for who reads four at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub(super) struct Line {
     /// Centre, m.
     pub(super) x: DVec3,
-    /// Velocity, m/s.
-    pub(super) v: DVec3,
     /// When, s.
     pub(super) t: f64,
+    /// Velocity, m/s.
+    pub(super) v: DVec3,
     /// Radius, m.
     pub(super) r: f64,
+}
+
+/// All that an event needs of a sphere: two cache lines, of which those who only look at it read the first.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(128))]
+pub(super) struct Record {
+    pub(super) line: Line,
+    pub(super) plan: Plan,
+    /// The cube it is in, if there are cells.
+    pub(super) cube: Cube,
+    /// How often its motion has changed.
+    pub(super) stamp: u32,
+    /// Its index in the scene.
+    pub(super) sphere: u32,
+    /// 1 / m, 1/kg.
+    pub(super) inverse_mass: f64,
 }
 
 /// A line that was rewritten in this frame.
@@ -32,10 +56,13 @@ struct Past {
     acceleration: DVec3,
 }
 
-/// The lines of all spheres.
+/// The records of all spheres.
 #[derive(Debug, Clone)]
 pub(super) struct Flight {
-    pub(super) lines: Vec<Line>,
+    /// By seat.
+    pub(super) records: Vec<Record>,
+    /// The seat of each sphere; empty as long as each sits at its index.
+    seats: Vec<u32>,
     /// What accelerates every sphere alike, m/s², as long as `accelerations` is empty.
     common: DVec3,
     /// Acceleration of each, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
@@ -45,13 +72,79 @@ pub(super) struct Flight {
 
 impl Flight {
     pub(super) fn new(model: &Model, state: &State) -> Flight {
-        let line = |i: usize| Line { x: state.x[i], v: state.v[i], t: state.t, r: model.radii[i] };
+        let record = |i: usize| Record {
+            line: Line { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
+            plan: Plan::IDLE,
+            cube: [0; 3],
+            stamp: 0,
+            sphere: i as u32,
+            inverse_mass: model.inverse_masses[i],
+        };
         let (common, accelerations) = match model.pull {
             Pull::None => (DVec3::ZERO, Vec::new()),
             Pull::Uniform(g) => (g, Vec::new()),
             Pull::PerSphere => (DVec3::ZERO, model.accelerations.clone()),
         };
-        Flight { lines: (0..model.len()).map(line).collect(), common, accelerations, past: Vec::new() }
+        let records = (0..model.len()).map(record).collect();
+        Flight { records, seats: Vec::new(), common, accelerations, past: Vec::new() }
+    }
+
+    /// Where sphere `i` sits.
+    #[inline]
+    pub(super) fn seat(&self, i: usize) -> usize {
+        if self.seats.is_empty() { i } else { self.seats[i] as usize }
+    }
+
+    /// Asks for the seat of sphere `i`: it will be looked up soon.
+    #[inline]
+    pub(super) fn fetch_seat(&self, i: usize, lanes: Lanes) {
+        if let Some(seat) = self.seats.get(i) {
+            lanes.fetch(seat);
+        }
+    }
+
+    /// The sphere at a seat.
+    #[inline]
+    pub(super) fn sphere(&self, seat: usize) -> usize {
+        self.records[seat].sphere as usize
+    }
+
+    /// The line of sphere `i`.
+    #[inline]
+    pub(super) fn line(&self, i: usize) -> &Line {
+        &self.records[self.seat(i)].line
+    }
+
+    /// 1 / m of sphere `i`, 1/kg.
+    #[inline]
+    pub(super) fn inverse_mass(&self, i: usize) -> f64 {
+        self.records[self.seat(i)].inverse_mass
+    }
+
+    /// The motion of sphere `i` has changed: what others planned with it is stale.
+    #[inline]
+    pub(super) fn stamp(&mut self, i: usize) {
+        let seat = self.seat(i);
+        let stamp = &mut self.records[seat].stamp;
+        *stamp = stamp.wrapping_add(1);
+    }
+
+    /// Seats everybody anew: who sat at `order[s]` now sits at s.
+    pub(super) fn reseat(&mut self, order: &[u32]) {
+        self.records = order.iter().map(|&seat| self.records[seat as usize]).collect();
+        let mut now = vec![0; order.len()];
+        for (seat, &before) in order.iter().enumerate() {
+            now[before as usize] = seat as u32;
+        }
+        for record in &mut self.records {
+            if record.plan.kind == Kind::Pair {
+                record.plan.other = now[record.plan.other as usize];
+            }
+        }
+        self.seats = vec![0; order.len()];
+        for (seat, record) in self.records.iter().enumerate() {
+            self.seats[record.sphere as usize] = seat as u32;
+        }
     }
 
     /// Acceleration of sphere `i`, m/s².
@@ -69,7 +162,14 @@ impl Flight {
     /// The path of sphere `i` from time `t` (s) on.
     #[inline]
     pub(super) fn path(&self, i: usize, t: f64) -> Path {
-        let (line, a) = (&self.lines[i], self.acceleration(i));
+        self.path_from(self.seat(i), t)
+    }
+
+    /// The path of the sphere at a seat from time `t` (s) on.
+    #[inline]
+    pub(super) fn path_from(&self, seat: usize, t: f64) -> Path {
+        let record = &self.records[seat];
+        let (line, a) = (&record.line, self.acceleration(record.sphere as usize));
         let dt = t - line.t;
         Path { x: line.x + (line.v + a * (0.5 * dt)) * dt, v: line.v + a * dt, a }
     }
@@ -78,17 +178,22 @@ impl Flight {
     #[inline]
     pub(super) fn rewrite(&mut self, i: usize, t: f64, x: DVec3, v: DVec3) {
         self.keep(i, t);
-        self.lines[i] = Line { x, v, t, r: self.lines[i].r };
+        let seat = self.seat(i);
+        let line = &mut self.records[seat].line;
+        *line = Line { x, v, t, r: line.r };
     }
 
     /// Brings the line of sphere `i` to time `t`, s.
     #[inline]
-    pub(super) fn bring(&mut self, i: usize, t: f64) -> Path {
-        let path = self.path(i, t);
-        if self.lines[i].t != t {
-            self.rewrite(i, t, path.x, path.v);
+    pub(super) fn bring(&mut self, i: usize, t: f64) {
+        let (seat, acceleration) = (self.seat(i), self.acceleration(i));
+        let line = &mut self.records[seat].line;
+        let dt = t - line.t;
+        if dt != 0.0 {
+            self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
+            let (x, v) = (line.x + (line.v + acceleration * (0.5 * dt)) * dt, line.v + acceleration * dt);
+            *line = Line { x, t, v, r: line.r };
         }
-        path
     }
 
     /// Gives sphere `i`, whose line is at the present, another acceleration, m/s².
@@ -96,8 +201,8 @@ impl Flight {
         if a == self.acceleration(i) {
             return;
         }
-        self.keep(i, self.lines[i].t);
-        self.accelerations.resize(self.lines.len(), self.common);
+        self.keep(i, self.line(i).t);
+        self.accelerations.resize(self.records.len(), self.common);
         self.accelerations[i] = a;
     }
 
@@ -108,7 +213,7 @@ impl Flight {
 
     /// Every sphere's path from time `t` on, by the lines of now.
     pub(super) fn now(&self, t: f64) -> State {
-        let paths = || (0..self.lines.len()).map(|i| self.path(i, t));
+        let paths = || (0..self.records.len()).map(|i| self.path(i, t));
         State { t, x: paths().map(|p| p.x).collect(), v: paths().map(|p| p.v).collect() }
     }
 
@@ -126,10 +231,10 @@ impl Flight {
 
     fn keep(&mut self, i: usize, until: f64) {
         // a line replaced at its own time was never in force
-        if self.lines[i].t == until {
+        let line = *self.line(i);
+        if line.t == until {
             return;
         }
-        let past = Past { sphere: i as u32, until, line: self.lines[i], acceleration: self.acceleration(i) };
-        self.past.push(past);
+        self.past.push(Past { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
     }
 }

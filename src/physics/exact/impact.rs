@@ -156,25 +156,23 @@ impl<D: Detector> Exact<D> {
         Stall { time: self.now, kind: "no-progress", reason }
     }
 
-    /// The contact that sphere `i` planned is due.
-    pub(super) fn contact(&mut self, model: &Model, log: &mut Log, i: usize) -> Result<(), Stall> {
-        let plan = self.plans[i];
+    /// The contact that the sphere at a seat planned is due.
+    pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
+        let plan = self.flight.records[seat].plan;
         if !plan.sure {
-            self.predict(model, i);
+            self.predict_at(model, seat);
             return Ok(());
         }
-        let other = plan.other as usize;
-        let stale = plan.kind == Kind::Pair && self.stamps[other] != plan.stamp;
-        let (a, b) = if plan.kind == Kind::Pair { (i.min(other), i.max(other)) } else { (i, other) };
-        let key = (plan.kind, a, b);
+        let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
+        let key = self.key(seat, &plan);
         if stale || self.rests.holds(key) {
-            self.predict(model, i);
+            self.predict_at(model, seat);
             return Ok(());
         }
         self.meet(model, log, key)?;
         // whatever became of the contact, this plan is used up
-        if self.plans[i] == plan {
-            self.predict(model, i);
+        if self.flight.records[seat].plan == plan {
+            self.predict_at(model, seat);
         }
         Ok(())
     }
@@ -195,7 +193,7 @@ impl<D: Detector> Exact<D> {
         let path = self.flight.path(a, time);
         match kind {
             Kind::Wall => {
-                let (face, r) = (&model.faces[b], model.radii[a]);
+                let (face, r) = (&model.faces[b], self.flight.line(a).r);
                 let at = touch(face, path.x, r);
                 let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
                 // only what may rest asks on which side of a border it will be
@@ -208,12 +206,13 @@ impl<D: Detector> Exact<D> {
             Kind::Pair => {
                 let other = self.flight.path(b, time);
                 let relative = path.relative_to(&other);
-                let (reach, distance) = (model.radii[a] + model.radii[b], relative.x.length());
+                let (r_a, r_b) = (self.flight.line(a).r, self.flight.line(b).r);
+                let (reach, distance) = (r_a + r_b, relative.x.length());
                 let (normal, gap) = (relative.x / distance, distance - reach);
                 let v_n = pair_normal_velocity(relative.x, relative.v);
                 let across = relative.v - normal * v_n;
                 let a_n = normal.dot(relative.a) + across.length_squared() / distance;
-                let point = other.x + normal * (model.radii[b] + 0.5 * gap);
+                let point = other.x + normal * (r_b + 0.5 * gap);
                 Meeting { key, point, normal, gap, reach, v_n, a_n, flat: false }
             }
         }
@@ -221,7 +220,7 @@ impl<D: Detector> Exact<D> {
 
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let before = self.flight.lines[key.1];
+        let before = *self.flight.line(key.1);
         let mut meeting = self.meeting(model, key);
         self.keep_energy(model, &before, &mut meeting);
         match self.class(model, log, &meeting) {
@@ -303,19 +302,20 @@ impl<D: Detector> Exact<D> {
         let change = target - meeting.v_n;
         let impulse = match kind {
             Kind::Wall => {
-                let v = self.flight.lines[a].v;
+                let v = self.flight.line(a).v;
                 let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
                 self.push(a, along(meeting.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
-                let (one, two) = (self.flight.lines[a], self.flight.lines[b]);
+                let (one, two) = (*self.flight.line(a), *self.flight.line(b));
                 let (arm, w) = (one.x - two.x, one.v - two.v);
                 // along the arm by its actual length: a unit normal's rounding would let the energy creep upwards
-                let share = model.inverse_masses[a] + model.inverse_masses[b];
+                let (share_a, share_b) = (self.flight.inverse_mass(a), self.flight.inverse_mass(b));
+                let share = share_a + share_b;
                 let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
-                self.push(a, push * model.inverse_masses[a]);
-                self.push(b, push * -model.inverse_masses[b]);
+                self.push(a, push * share_a);
+                self.push(b, push * -share_b);
                 change / share
             }
         };
@@ -337,7 +337,7 @@ impl<D: Detector> Exact<D> {
         let touched = if kind == Kind::Pair { &[a, b][..] } else { &[a][..] };
         for &i in touched {
             self.finite(i)?;
-            self.stamps[i] = self.stamps[i].wrapping_add(1);
+            self.flight.stamp(i);
             self.disturb(model, log, i);
         }
         for &i in touched {
@@ -348,7 +348,7 @@ impl<D: Detector> Exact<D> {
 
     /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
     pub(super) fn push(&mut self, i: usize, change: DVec3) {
-        let line = self.flight.lines[i];
+        let line = *self.flight.line(i);
         self.flight.rewrite(i, self.now, line.x, line.v + change);
     }
 
@@ -358,20 +358,31 @@ impl<D: Detector> Exact<D> {
         let (kind, a, b) = key;
         let yields = kind == Kind::Pair && self.rests.count(b) < self.rests.count(a);
         let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
-        let mut nudge = f64::EPSILON * self.flight.lines[i].v.length().max(f64::MIN_POSITIVE);
+        let mut nudge = f64::EPSILON * self.flight.line(i).v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
-            let meeting = self.seen(model, key, self.now);
-            if meeting.v_n >= least || meeting.v_n.is_nan() {
+            let v_n = self.v_n(model, key);
+            if v_n >= least || v_n.is_nan() {
                 return;
             }
-            self.push(i, meeting.normal * (sign * nudge.max(least - meeting.v_n)));
+            let normal = self.seen(model, key, self.now).normal;
+            self.push(i, normal * (sign * nudge.max(least - v_n)));
             nudge *= 2.0;
         }
     }
 
+    /// The normal velocity of a contact whose lines are at the present, m/s.
+    fn v_n(&self, model: &Model, key: Key) -> f64 {
+        let (kind, a, b) = key;
+        if kind == Kind::Wall {
+            return self.seen(model, key, self.now).v_n;
+        }
+        let (one, two) = (self.flight.line(a), self.flight.line(b));
+        pair_normal_velocity(one.x - two.x, one.v - two.v)
+    }
+
     /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
-        let line = &self.flight.lines[i];
+        let line = self.flight.line(i);
         let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
         runaway(i, self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }

@@ -2,6 +2,7 @@
 
 use super::Exact;
 use super::cells::Near;
+use super::flight::Record;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::touch;
 use crate::physics::detector::Detector;
@@ -46,8 +47,9 @@ impl<D: Detector> Exact<D> {
     fn touching_now(&self, model: &Model) -> Vec<Key> {
         let mut found = Vec::new();
         let mut near = Near::nobody();
-        let lines = &self.flight.lines;
-        for (i, line) in lines.iter().enumerate() {
+        let records = &self.flight.records;
+        for Record { line, cube, sphere, .. } in records {
+            let i = *sphere as usize;
             let slack = touching(line.r, line.x.abs().max_element());
             let mut wall = |wall: usize| {
                 if touch(&model.faces[wall], line.x, line.r).gap <= slack {
@@ -56,19 +58,20 @@ impl<D: Detector> Exact<D> {
             };
             match &self.cells {
                 None => (0..model.faces.len()).for_each(&mut wall),
-                Some(cells) => cells.walls_near(i).iter().for_each(|&w| wall(w as usize)),
+                Some(cells) => cells.walls_near(*cube).iter().for_each(|&w| wall(w as usize)),
             }
-            let mut pair = |j: usize| {
-                let slack = touching(line.r + lines[j].r, line.x.abs().max(lines[j].x.abs()).max_element());
-                if i < j && (line.x - lines[j].x).length() - (line.r + lines[j].r) <= slack {
+            let mut pair = |seat: usize| {
+                let (j, other) = (records[seat].sphere as usize, &records[seat].line);
+                let slack = touching(line.r + other.r, line.x.abs().max(other.x.abs()).max_element());
+                if i < j && (line.x - other.x).length() - (line.r + other.r) <= slack {
                     found.push((Kind::Pair, i, j));
                 }
             };
             match &self.cells {
-                None => (i + 1..lines.len()).for_each(&mut pair),
+                None => (i + 1..records.len()).for_each(&mut pair),
                 Some(cells) => {
-                    cells.around(i, &mut near);
-                    near.slots().iter().chain(near.spilled()).for_each(|&j| pair(j as usize));
+                    cells.around(*cube, &mut near);
+                    near.seats().iter().for_each(|&seat| pair(seat as usize));
                 }
             }
         }

@@ -12,13 +12,15 @@ mod curved;
 mod flight;
 mod impact;
 mod islands;
+mod lanes;
 mod load;
-
+mod order;
 mod prediction;
 mod queue;
 mod replay;
 mod rest;
 mod roots;
+mod scout;
 
 use std::borrow::Cow;
 
@@ -27,14 +29,15 @@ use glam::DVec3;
 use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
-use cells::Cells;
+use cells::{Cells, Near};
 use flight::Flight;
 use impact::Instant;
 use islands::Rests;
-use prediction::Plan;
+use lanes::Lanes;
 use queue::Queue;
 use replay::{Origin, Replay};
 pub(super) use roots::Roots;
+use scout::Scout;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -58,11 +61,17 @@ pub(super) struct Exact<D> {
     now: f64,
     frame: Frame,
     flight: Flight,
-    /// How often each sphere's motion has changed.
-    stamps: Vec<u32>,
-    plans: Vec<Plan>,
+    /// By seat.
     queue: Queue,
-    cells: Option<Cells>,
+    /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
+    next: Option<(f64, usize)>,
+    cells: Option<Box<Cells>>,
+    /// Lent to whoever looks around.
+    near: Near,
+    /// Crossings since the spheres were seated.
+    crossings: usize,
+    scout: Scout,
+    lanes: Lanes,
     rests: Rests,
     instant: Instant,
     /// Gaps computed since the log was last told.
@@ -102,10 +111,13 @@ impl<D: Detector> Engine for Exact<D> {
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
             flight: Flight::new(model, &state),
-            stamps: vec![0; count],
-            plans: vec![Plan::IDLE; count],
             queue: Queue::new(count),
-            cells: (count > FEW).then(|| Cells::new(model, &state)),
+            next: None,
+            cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
+            near: Near::nobody(),
+            crossings: 0,
+            scout: Scout::default(),
+            lanes: Lanes::new(),
             rests: Rests::default(),
             instant: Instant::default(),
             evaluations: 0,
@@ -113,6 +125,7 @@ impl<D: Detector> Engine for Exact<D> {
             resumes: None,
             replay: None,
         };
+        exact.enter_cubes();
         exact.load(model, log);
         exact.flight.forget();
         exact
@@ -184,7 +197,7 @@ impl<D: Detector> Engine for Exact<D> {
     }
 
     fn continue_with(&mut self, transient: &[DVec3]) {
-        self.resumes = replay::read(transient, self.stamps.len()).filter(|origin| origin.t <= self.frame.time);
+        self.resumes = replay::read(transient, self.flight.records.len()).filter(|origin| origin.t <= self.frame.time);
     }
 
     fn hand_over(&self, model: &Model) -> State {
@@ -214,29 +227,38 @@ impl<D: Detector> Exact<D> {
         Turn::Frame
     }
 
+    /// The earliest event and the seat it is entered for.
+    fn first(&self) -> (f64, usize) {
+        self.queue.first(|one, other| {
+            let plan = &self.flight.records[one].plan;
+            let time = plan.contact.min(plan.crossing).min(self.rests.end_led_by(self.flight.sphere(one)));
+            self.rank(time, one) < self.rank(time, other)
+        })
+    }
+
     /// One event, or the end of the frame.
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
-        let (time, i) = self.queue.first(|i, j| {
-            let time = self.plans[i].contact.min(self.plans[i].crossing).min(self.rests.end_led_by(i));
-            self.rank(time, i) < self.rank(time, j)
-        });
-        let rank = if time < f64::INFINITY { self.rank(time, i) } else { (3, 0, 0) };
+        let (time, seat) = self.next.take().unwrap_or_else(|| self.first());
+        let rank = if time < f64::INFINITY { self.rank(time, seat) } else { (3, 0, 0) };
         if self.rests.is_dirty() && (time > self.now || rank.0 > 1) {
             self.settle(model, log)?;
             return Ok(Turn::Event);
         }
         if !log.contacts.is_empty() && time > self.now && self.now > self.frame.time {
+            self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, self.now));
         }
         let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
         if time > end {
+            self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, end));
         }
         self.advance_clock(time, model.len())?;
+        self.scout();
         match rank.0 {
-            0 | 1 => self.contact(model, log, i)?,
-            2 => self.end_parabola(model, i),
-            _ => self.cross(model, i),
+            0 | 1 => self.contact(model, log, seat)?,
+            2 => self.end_parabola(model, rank.1),
+            _ => self.cross(model, seat),
         }
         Ok(Turn::Event)
     }

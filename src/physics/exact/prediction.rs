@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::Exact;
 use super::cells::{Near, Way};
-use super::flight::Line;
+use super::lanes::{Eye, MOST};
+use crate::physics::contact::Key;
 use crate::physics::contact_time::{Path, straight_pair};
 use crate::physics::detector::{Detector, Due, Span};
 use crate::physics::{Kind, Model};
@@ -48,173 +49,233 @@ pub(super) type Rank = (u8, usize, usize);
 impl<D: Detector> Exact<D> {
     /// Predicts sphere `i` afresh from the present on.
     pub(super) fn predict(&mut self, model: &Model, i: usize) {
-        let path = self.flight.path(i, self.now);
+        self.predict_at(model, self.flight.seat(i));
+    }
+
+    /// The same for the sphere at a seat.
+    pub(super) fn predict_at(&mut self, model: &Model, seat: usize) {
+        let path = self.flight.path_from(seat, self.now);
         let mut plan = Plan::IDLE;
-        let evaluations = if self.cells.is_some() {
-            self.meet_near(model, i, &path, None, &mut plan)
+        self.evaluations += if self.cells.is_some() {
+            self.meet_near(model, seat, &path, None, &mut plan)
         } else {
-            let spheres = (0..model.len()).filter(|&j| j != i);
-            self.walls(model, i, &path, 0..model.faces.len(), &mut plan)
-                + spheres.map(|j| self.pair(i, &path, j, &mut plan)).sum::<u64>()
+            let others = (0..model.len()).filter(|&other| other != seat);
+            self.walls(model, seat, &path, 0..model.faces.len(), &mut plan)
+                + others.map(|other| self.pair(seat, &path, other, &mut plan)).sum::<u64>()
         };
-        self.evaluations += evaluations;
-        self.plans[i] = plan;
-        self.schedule(i);
+        self.flight.records[seat].plan = plan;
+        self.schedule(seat);
     }
 
-    /// Sphere `i` crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
-    pub(super) fn cross(&mut self, model: &Model, i: usize) {
-        let mut plan = self.plans[i];
-        let path = self.flight.path(i, self.now);
-        let Some(cells) = &mut self.cells else { return };
-        cells.cross(i, plan.way);
-        self.evaluations += self.meet_near(model, i, &path, Some(plan.way), &mut plan);
-        self.plans[i] = plan;
-        self.schedule(i);
+    /// The sphere at a seat crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
+    pub(super) fn cross(&mut self, model: &Model, seat: usize) {
+        let path = self.flight.path_from(seat, self.now);
+        let seats = self.flight.records.len();
+        let Exact { cells: Some(cells), flight, .. } = self else { return };
+        let record = &mut flight.records[seat];
+        let mut plan = record.plan;
+        record.cube = cells.cross(seat, record.cube, plan.way, seats);
+        self.evaluations += self.meet_near(model, seat, &path, Some(plan.way), &mut plan);
+        self.flight.records[seat].plan = plan;
+        self.schedule(seat);
+        self.count_crossing();
     }
 
-    /// Looks at the walls near sphere `i`'s cube and at the spheres around it, or only at those that came within reach
+    /// Looks at the spheres around a sphere's cube and at the walls near it, or only at those that came within reach
     /// when it went `way`; and when it will leave its cube. Returns how many it looked at.
-    fn meet_near(&mut self, model: &Model, i: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
-        let Some(cells) = &mut self.cells else { return 0 };
-        let mut near = std::mem::take(&mut cells.near);
+    fn meet_near(&mut self, model: &Model, seat: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
+        let Some(cells) = &self.cells else { return 0 };
+        let cube = self.flight.records[seat].cube;
+        let mut near = std::mem::take(&mut self.near);
         match way {
-            None => cells.around(i, &mut near),
-            Some(way) => cells.ahead(i, way, &mut near),
+            None => cells.around(cube, &mut near),
+            Some(way) => cells.ahead(cube, way, &mut near),
         }
-        let (crossing, way) = cells.crossing(i, path);
+        let (crossing, way) = cells.crossing(cube, path);
         (plan.crossing, plan.way) = (self.now + crossing, way);
-        let walls = self.cells.iter().flat_map(|cells| cells.walls_near(i)).map(|&wall| wall as usize);
-        let count = self.walls(model, i, path, walls, plan) + self.pairs(i, path, &near, plan);
-        if let Some(cells) = &mut self.cells {
-            cells.near = near;
+        let walls = cells.walls_near(cube).iter().map(|&wall| wall as usize);
+        // pairs first where that is quick: what they are to meet soon spares most walls the search for edges
+        let early = if D::SOLVES { self.pairs(seat, path, &mut near, plan) } else { 0 };
+        let mut count = early + self.walls(model, seat, path, walls, plan);
+        if !D::SOLVES {
+            count += self.pairs(seat, path, &mut near, plan);
         }
+        self.near = near;
         count
     }
 
-    /// Enters the earliest of sphere `i`'s plan and its island's end into the queue.
+    /// Enters the earliest of a sphere's plan and its island's end into the queue.
     #[inline]
-    pub(super) fn schedule(&mut self, i: usize) {
-        let plan = &self.plans[i];
-        let contact = plan.contact.min(plan.crossing);
-        self.queue.set(i, if self.rests.is_empty() { contact } else { contact.min(self.rests.end_led_by(i)) });
+    pub(super) fn schedule(&mut self, seat: usize) {
+        let record = &self.flight.records[seat];
+        let time = record.plan.contact.min(record.plan.crossing);
+        let led = if self.rests.is_empty() { f64::INFINITY } else { self.rests.end_led_by(record.sphere as usize) };
+        self.queue.set(seat, time.min(led));
     }
 
-    /// What sphere `i`'s entry at `time` stands for.
-    pub(super) fn rank(&self, time: f64, i: usize) -> Rank {
-        let plan = &self.plans[i];
-        let other = plan.other as usize;
+    /// What the entry of a seat at `time` stands for.
+    #[inline]
+    pub(super) fn rank(&self, time: f64, seat: usize) -> Rank {
+        let record = &self.flight.records[seat];
+        let i = record.sphere as usize;
+        if record.plan.contact == time {
+            let (kind, a, b) = self.key(seat, &record.plan);
+            return (if kind == Kind::Wall { 0 } else { 1 }, a, b);
+        }
+        if self.rests.end_led_by(i) == time { (2, i, 0) } else { (3, i, 0) }
+    }
+
+    /// Which contact a plan for a seat means.
+    #[inline]
+    pub(super) fn key(&self, seat: usize, plan: &Plan) -> Key {
+        let i = self.flight.sphere(seat);
         match plan.kind {
-            Kind::Wall if plan.contact == time => (0, i, other),
-            Kind::Pair if plan.contact == time => (1, i.min(other), i.max(other)),
-            _ if self.rests.end_led_by(i) == time => (2, i, 0),
-            _ => (3, i, 0),
+            Kind::Wall => (Kind::Wall, i, plan.other as usize),
+            Kind::Pair => {
+                let j = self.flight.sphere(plan.other as usize);
+                (Kind::Pair, i.min(j), i.max(j))
+            }
         }
     }
 
     /// Looks at some walls, in ascending order; returns how many.
     #[inline]
-    fn walls(&self, model: &Model, i: usize, path: &Path, walls: impl Iterator<Item = usize>, plan: &mut Plan) -> u64 {
+    fn walls(
+        &self,
+        model: &Model,
+        seat: usize,
+        path: &Path,
+        walls: impl Iterator<Item = usize>,
+        plan: &mut Plan,
+    ) -> u64 {
+        let (i, r) = (self.flight.sphere(seat), self.flight.records[seat].line.r);
         let mut count = 0;
         for wall in walls {
             if self.rests.holds((Kind::Wall, i, wall)) {
                 continue;
             }
             count += 1;
-            let span = self.span_before(plan.contact);
-            let Some(due) = self.detector.wall(path, model.radii[i], &model.faces[wall], span) else { continue };
+            let Some(due) = self.detector.wall(path, r, &model.faces[wall], self.span_for_walls(plan)) else {
+                continue;
+            };
             let time = self.now + due.after;
-            if time < plan.contact {
+            if time < plan.contact || (time == plan.contact && plan.kind == Kind::Pair) {
                 (plan.contact, plan.kind, plan.other, plan.sure) = (time, Kind::Wall, wall as u32, due.sure);
             }
         }
         count
     }
 
-    /// Looks at the pairs of sphere `i` and those near it, itself among them or not; returns how many.
+    /// Until when a wall is worth a look, s from now: walls come before pairs of the same time, and times that round to
+    /// the same are the same.
     #[inline]
-    fn pairs(&self, i: usize, path: &Path, near: &Near, plan: &mut Plan) -> u64 {
-        match self.flight.common().filter(|_| D::SOLVES) {
-            Some(DVec3::ZERO) => self.alike(i, path, near.slots(), |line, dt| (line.x + line.v * dt, line.v), plan),
-            Some(a) => {
-                let then = |line: &Line, dt: f64| (line.x + (line.v + a * (0.5 * dt)) * dt, line.v + a * dt);
-                self.alike(i, path, near.slots(), then, plan);
-            }
-            None => {
-                for &j in near.slots().iter().filter(|&&j| j as usize != i) {
-                    self.pair(i, path, j as usize, plan);
-                }
-            }
+    fn span_for_walls(&self, plan: &Plan) -> Span {
+        match plan.kind {
+            Kind::Pair if D::SOLVES => Span { now: self.now, before: (plan.contact.next_up() - self.now).next_up() },
+            _ => self.span_before(plan.contact),
         }
-        for &j in near.spilled().iter().filter(|&&j| j as usize != i) {
-            self.pair(i, path, j as usize, plan);
-        }
-        (near.slots().len() + near.spilled().len()) as u64
     }
 
-    /// Looks at pairs whose relative motion is straight. One in ten meets at all: that is the only branch, a weaker
-    /// question than that of [`straight_pair`].
-    #[inline(always)]
-    fn alike(&self, i: usize, path: &Path, near: &[u32], then: impl Fn(&Line, f64) -> (DVec3, DVec3), plan: &mut Plan) {
-        let lines = &self.flight.lines[..];
-        let r = lines[i].r;
-        for &j in near {
-            let line = &lines[j as usize];
-            let (x, v) = then(line, self.now - line.t);
-            let (x, v, reach) = (path.x - x, path.v - v, r + line.r);
-            // a pair that parts counts as one that passes by, as sphere i itself does
-            let b = x.dot(v).min(0.0);
-            let c = x.length_squared() - reach * reach;
-            if b * b > v.length_squared() * c
-                && let Some(t) = straight_pair(x, v, reach)
-            {
-                let time = self.now + t;
-                // what j meets before makes it look around anew, and find i then
-                if time <= self.plans[j as usize].contact {
-                    self.offer(i, j as usize, Due { after: t, sure: true }, plan);
-                }
+    #[inline]
+    fn span_before(&self, time: f64) -> Span {
+        Span { now: self.now, before: time - self.now }
+    }
+
+    /// Looks at the pairs of a sphere and those near it, itself among them; returns how many.
+    #[inline]
+    fn pairs(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) -> u64 {
+        if D::SOLVES && self.flight.common().is_some() {
+            self.alike(seat, path, near, plan);
+        } else {
+            for &other in near.seats().iter().filter(|&&other| other as usize != seat) {
+                self.pair(seat, path, other as usize, plan);
             }
+        }
+        near.seats().len() as u64
+    }
+
+    /// Looks at pairs whose relative motion is straight. One in ten meets at all; among those the earliest is chosen
+    /// without asking, since the answers cannot be predicted.
+    #[inline(always)]
+    fn alike(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) {
+        let records = &self.flight.records[..];
+        let eye = Eye { path, r: records[seat].line.r, now: self.now };
+        let (seats, fours) = near.padded(seat);
+        for seats in seats.chunks(MOST) {
+            let mut meet = self.lanes.look(eye, records, seats, fours);
+            let (mut first, mut with) = (f64::INFINITY, seat);
+            while meet != 0 {
+                let k = meet.trailing_zeros() as usize;
+                meet &= meet - 1;
+                let (four, lane, other) = (&fours[k / 4], k % 4, seats[k] as usize);
+                let (b, c) = (four.b[lane], four.c[lane]);
+                let time = self.now + c / (four.discriminant[lane].sqrt() - b);
+                // what the other meets before makes it look around anew, and find this one then
+                let time = if time <= records[other].plan.contact { time } else { f64::INFINITY };
+                if c <= 0.0 || time == first && time < f64::INFINITY || !self.rests.is_empty() {
+                    self.choose(seat, path, other, c, time, plan);
+                    continue;
+                }
+                with = if time < first { other } else { with };
+                first = if time < first { time } else { first };
+            }
+            if first < f64::INFINITY {
+                self.offer(seat, with, first, true, plan);
+            }
+        }
+    }
+
+    /// A pair that takes a closer look: it overlaps by rounding, it may rest, or another meets at the same time.
+    #[cold]
+    #[inline(never)]
+    fn choose(&self, seat: usize, path: &Path, other: usize, c: f64, time: f64, plan: &mut Plan) {
+        if c <= 0.0 {
+            // whether they approach is for the handler's own expression to say
+            self.pair(seat, path, other, plan);
+        } else if time < f64::INFINITY {
+            self.offer(seat, other, time, true, plan);
         }
     }
 
     /// Looks at one pair; returns 1 if there was anything to look at.
     #[inline]
-    fn pair(&self, i: usize, path: &Path, j: usize, plan: &mut Plan) -> u64 {
-        let line = &self.flight.lines[j];
-        let reach = self.flight.lines[i].r + line.r;
+    fn pair(&self, seat: usize, path: &Path, other: usize, plan: &mut Plan) -> u64 {
+        let line = &self.flight.records[other].line;
+        let reach = self.flight.records[seat].line.r + line.r;
         let found = if D::SOLVES && self.flight.common() == Some(DVec3::ZERO) {
             let t = straight_pair(path.x - (line.x + line.v * (self.now - line.t)), path.v - line.v, reach);
             t.map(|after| Due { after, sure: true })
         } else {
-            // what j meets before makes it look around anew, and find i then
-            let before = if D::SOLVES { plan.contact } else { plan.contact.min(self.plans[j].contact) };
-            self.detector.pair(path, &self.flight.path(j, self.now), reach, self.span_before(before))
+            // what the other meets before makes it look around anew, and find this one then
+            let theirs = self.flight.records[other].plan.contact;
+            let before = if D::SOLVES { plan.contact } else { plan.contact.min(theirs) };
+            self.detector.pair(path, &self.flight.path_from(other, self.now), reach, self.span_before(before))
         };
         let Some(due) = found else { return 1 };
-        self.offer(i, j, due, plan)
+        self.offer(seat, other, self.now + due.after, due.sure, plan)
     }
 
-    /// Plans to meet sphere `j` if nothing is planned before; returns 0 if the two rest on each other.
+    /// Plans to meet the sphere at `other` at `time` (s) if nothing is planned before; returns 0 if the two rest on each
+    /// other.
     #[inline]
-    fn offer(&self, i: usize, j: usize, due: Due, plan: &mut Plan) -> u64 {
-        let time = self.now + due.after;
-        if time < plan.contact || time == plan.contact && self.wins_tie(i, j, plan) {
-            if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
-                return 0;
+    fn offer(&self, seat: usize, other: usize, time: f64, sure: bool, plan: &mut Plan) -> u64 {
+        if time < plan.contact || time == plan.contact && self.wins_tie(seat, other, plan) {
+            if !self.rests.is_empty() {
+                let (i, j) = (self.flight.sphere(seat), self.flight.sphere(other));
+                if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
+                    return 0;
+                }
             }
-            (plan.contact, plan.kind, plan.sure) = (time, Kind::Pair, due.sure);
-            (plan.other, plan.stamp) = (j as u32, self.stamps[j]);
+            (plan.contact, plan.kind, plan.sure) = (time, Kind::Pair, sure);
+            (plan.other, plan.stamp) = (other as u32, self.flight.records[other].stamp);
         }
         1
     }
 
-    fn span_before(&self, time: f64) -> Span {
-        Span { now: self.now, before: time - self.now }
-    }
-
     /// Among pairs at one time the lower (a, b) comes first; walls come before pairs.
-    fn wins_tie(&self, i: usize, j: usize, plan: &Plan) -> bool {
-        let other = plan.other as usize;
-        plan.kind == Kind::Pair && plan.contact.is_finite() && (i.min(j), i.max(j)) < (i.min(other), i.max(other))
+    #[cold]
+    fn wins_tie(&self, seat: usize, other: usize, plan: &Plan) -> bool {
+        let new = Plan { kind: Kind::Pair, other: other as u32, ..*plan };
+        plan.kind == Kind::Pair && plan.contact.is_finite() && self.key(seat, &new) < self.key(seat, plan)
     }
 }

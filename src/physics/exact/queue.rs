@@ -1,107 +1,159 @@
 //! The earliest event of many: a tournament of eight.
 //!
-//! Each sphere has one entry, the time of its next event. Every eight entries share a winner one level up, so that a
+//! Each seat has one entry, the time of its next event. Every eight entries share a winner one level up, so that a
 //! changed entry is one cache line a level and a million spheres are seven levels. Bounded memory, no rebuilding, no
 //! dependence on how event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
+
+use super::lanes::{Eight, Judge, Lanes, Tournament};
 
 /// Entries that share a winner: one cache line of times.
 const FAN: usize = 8;
 
-/// The next event time of each sphere, s; infinite where there is none.
-#[derive(Debug, Clone, Default)]
+/// Levels that the indices of spheres can need: 8¹¹ > 2³².
+const MOST_LEVELS: usize = 11;
+
+/// The next event time at each seat, s; infinite where there is none.
+#[derive(Debug, Clone)]
 pub(super) struct Queue {
-    /// Leaves first, then winners of eight, up to a level of at most eight.
-    levels: Vec<Vec<f64>>,
+    /// Leaves first, then winners of eight, up to a level of one block.
+    blocks: Vec<Eight>,
+    /// Where each level begins.
+    starts: [usize; MOST_LEVELS],
+    levels: usize,
+    lanes: Lanes,
 }
 
 impl Queue {
-    /// No events for `count` spheres.
+    /// No events at `count` seats.
     pub(super) fn new(count: usize) -> Queue {
-        let mut levels = Vec::new();
+        let (mut starts, mut levels, mut total) = ([0; MOST_LEVELS], 0, 0);
         let mut width = count.max(1);
         loop {
-            levels.push(vec![f64::INFINITY; width.next_multiple_of(FAN)]);
-            if width <= FAN {
-                return Queue { levels };
-            }
+            starts[levels] = total;
+            levels += 1;
             width = width.div_ceil(FAN);
-        }
-    }
-
-    /// Sets the next event of sphere `i` to `time`, s.
-    #[inline]
-    pub(super) fn set(&mut self, i: usize, time: f64) {
-        self.levels[0][i] = time;
-        let mut place = i;
-        for level in 1..self.levels.len() {
-            place /= FAN;
-            let winner = least(&self.levels[level - 1][place * FAN..place * FAN + FAN]);
-            if self.levels[level][place] == winner {
-                return;
+            total += width;
+            if width == 1 {
+                return Queue { blocks: vec![Eight([f64::INFINITY; FAN]); total], starts, levels, lanes: Lanes::new() };
             }
-            self.levels[level][place] = winner;
         }
     }
 
-    /// The earliest time and its sphere; among equal times the sphere that `before` puts first; sphere 0
-    /// if nothing ever happens.
+    /// Sets the next event at a seat to `time`, s.
+    #[inline]
+    pub(super) fn set(&mut self, seat: usize, time: f64) {
+        self.blocks[seat / FAN].0[seat % FAN] = time;
+        if self.levels > 1 {
+            let lanes = self.lanes;
+            lanes.run(Lift { queue: self, seat });
+        }
+    }
+
+    /// The earliest time and its seat; among equal times the one that `before` puts first; seat 0 if nothing ever
+    /// happens.
     #[inline]
     pub(super) fn first(&self, before: impl Fn(usize, usize) -> bool) -> (f64, usize) {
-        let top = self.levels.len() - 1;
-        let time = least(&self.levels[top]);
-        if time == f64::INFINITY {
-            return (time, 0);
+        match self.lanes.run(Winner { queue: self }) {
+            (f64::INFINITY, _) => (f64::INFINITY, 0),
+            (time, Some(seat)) => (time, seat),
+            (time, None) => (time, self.first_of_equals(time, before)),
         }
-        let mut place = 0;
-        for level in (0..=top).rev() {
-            let equal = equals(&self.levels[level][place * FAN..place * FAN + FAN], time);
-            if equal & (equal - 1) != 0 {
-                return (time, self.first_of_equals(time, before));
-            }
-            place = place * FAN + equal.trailing_zeros() as usize;
-        }
-        (time, place)
     }
 
-    /// Which of several spheres with the earliest time `before` puts first.
+    /// Lists the events until `time` (s), no more than `most` or little more.
+    pub(super) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>) {
+        self.collect(self.levels - 1, 0, time, most, list);
+    }
+
+    fn collect(&self, level: usize, block: usize, until: f64, most: usize, list: &mut Vec<(f64, u32)>) {
+        for (k, &time) in self.blocks[self.starts[level] + block].0.iter().enumerate() {
+            if time <= until && list.len() < most {
+                let place = block * FAN + k;
+                match level {
+                    0 => list.push((time, place as u32)),
+                    _ => self.collect(level - 1, place, until, most, list),
+                }
+            }
+        }
+    }
+
+    /// Asks for the entry of a seat: it will change soon.
+    #[inline]
+    pub(super) fn fetch(&self, seat: usize) {
+        self.lanes.fetch(&self.blocks[seat / FAN]);
+    }
+
+    /// Which of several seats with the earliest time `before` puts first.
     #[cold]
     fn first_of_equals(&self, time: f64, before: impl Fn(usize, usize) -> bool) -> usize {
         let mut best = usize::MAX;
-        self.descend(self.levels.len() - 1, 0, time, &mut |i| {
-            if best == usize::MAX || before(i, best) {
-                best = i;
+        self.descend(self.levels - 1, 0, time, &mut |seat| {
+            if best == usize::MAX || before(seat, best) {
+                best = seat;
             }
         });
         best
     }
 
     fn descend(&self, level: usize, block: usize, time: f64, visit: &mut impl FnMut(usize)) {
-        for place in block * FAN..block * FAN + FAN {
-            if self.levels[level][place] == time {
+        for (k, &entry) in self.blocks[self.starts[level] + block].0.iter().enumerate() {
+            if entry == time {
                 match level {
-                    0 => visit(place),
-                    _ => self.descend(level - 1, place, time, visit),
+                    0 => visit(block * FAN + k),
+                    _ => self.descend(level - 1, block * FAN + k, time, visit),
                 }
             }
         }
     }
 }
 
-/// A bit for each of eight times that equals `time`, the least of them.
-#[inline]
-fn equals(times: &[f64], time: f64) -> u32 {
-    let &[a, b, c, d, e, f, g, h] = times else { return 1 };
-    // none is below the least: one comparison tells, where equality takes two
-    let bit = |t: f64, k: u32| u32::from(t <= time) << k;
-    bit(a, 0) | bit(b, 1) | bit(c, 2) | bit(d, 3) | bit(e, 4) | bit(f, 5) | bit(g, 6) | bit(h, 7)
+/// An entry has changed: the winners above it are found anew, up to the first that stays.
+struct Lift<'a> {
+    queue: &'a mut Queue,
+    seat: usize,
 }
 
-/// The smallest of eight times, pairwise.
-#[inline]
-fn least(times: &[f64]) -> f64 {
-    let smaller = |a: f64, b: f64| if b < a { b } else { a };
-    let &[a, b, c, d, e, f, g, h] = times else { return f64::INFINITY };
-    smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)))
+impl Tournament for Lift<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, judge: impl Judge) {
+        let Queue { blocks, starts, levels, .. } = self.queue;
+        let mut place = self.seat / FAN;
+        for level in 1..*levels {
+            let winner = judge.least(&blocks[starts[level - 1] + place]);
+            let entry = &mut blocks[starts[level] + place / FAN].0[place % FAN];
+            if *entry == winner {
+                return;
+            }
+            *entry = winner;
+            place /= FAN;
+        }
+    }
+}
+
+/// The earliest time, and its seat unless several have it.
+struct Winner<'a> {
+    queue: &'a Queue,
+}
+
+impl Tournament for Winner<'_> {
+    type Output = (f64, Option<usize>);
+
+    #[inline(always)]
+    fn run(self, judge: impl Judge) -> (f64, Option<usize>) {
+        let Queue { blocks, starts, levels, .. } = self.queue;
+        let time = judge.least(&blocks[starts[levels - 1]]);
+        let mut place = 0;
+        for level in (0..*levels).rev() {
+            let equal = judge.equals(&blocks[starts[level] + place], time);
+            if equal & equal.wrapping_sub(1) != 0 {
+                return (time, None);
+            }
+            place = place * FAN + equal.trailing_zeros() as usize;
+        }
+        (time, Some(place))
+    }
 }
 
 #[cfg(test)]

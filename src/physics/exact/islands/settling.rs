@@ -38,7 +38,7 @@ impl<D: Detector> Exact<D> {
             if meeting.hops_within_rounding(pressure) || self.instant.has_collapsed(key) {
                 continue;
             }
-            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.lines[i].v.length() {
+            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.line(i).v.length() {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
                 }
@@ -103,7 +103,7 @@ impl<D: Detector> Exact<D> {
     /// The motion of these spheres has changed: all their plans are made anew.
     fn moved(&mut self, model: &Model, spheres: &[usize]) {
         for &i in spheres {
-            self.stamps[i] = self.stamps[i].wrapping_add(1);
+            self.flight.stamp(i);
         }
         for &i in spheres {
             self.predict(model, i);
@@ -210,8 +210,8 @@ impl<D: Detector> Exact<D> {
         };
         let contacts = keys.iter().map(contact).collect();
         let body = |&i: &usize| Body {
-            x: self.flight.lines[i].x,
-            v: self.flight.lines[i].v,
+            x: self.flight.line(i).x,
+            v: self.flight.line(i).v,
             applied: model.acceleration(i),
             inverse_mass: model.inverse_masses[i],
             r: model.radii[i],

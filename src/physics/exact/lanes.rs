@@ -1,0 +1,314 @@
+//! Four numbers at a time, where the processor can (AVX2, asked once); the same operations in the same order one by one
+//! where it cannot. Both make the same bits, which is tested: nothing is contracted or reordered.
+
+use glam::DVec3;
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::V3;
+
+use super::flight::Record;
+use crate::physics::contact_time::Path;
+
+/// Seats that are looked at in one call at most: a bit each.
+pub(super) const MOST: usize = 64;
+
+/// Eight times: one cache line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Eight(pub(super) [f64; 8]);
+
+/// What is found out about four pairs, each at offset x with relative velocity v: b = x·v or 0 where they part,
+/// c = x² − reach², and the discriminant b² − v² c. They meet if b is negative and the discriminant positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Four {
+    pub(super) b: [f64; 4],
+    pub(super) c: [f64; 4],
+    pub(super) discriminant: [f64; 4],
+}
+
+/// Who looks: a sphere's path and radius at the present, s, with the acceleration that all share.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Eye<'a> {
+    pub(super) path: &'a Path,
+    pub(super) r: f64,
+    pub(super) now: f64,
+}
+
+/// What the processor can.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lanes {
+    #[cfg(target_arch = "x86_64")]
+    wide: Option<V3>,
+}
+
+impl Lanes {
+    /// As this processor is.
+    pub(super) fn new() -> Lanes {
+        Lanes {
+            #[cfg(target_arch = "x86_64")]
+            wide: V3::try_new(),
+        }
+    }
+
+    /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most; a bit for each
+    /// pair that meets.
+    #[inline]
+    pub(super) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(wide) = self.wide {
+            return match eye.path.a == DVec3::ZERO {
+                true => wide.vectorize(wide::Look::<false> { wide, eye, records, seats, fours }),
+                false => wide.vectorize(wide::Look::<true> { wide, eye, records, seats, fours }),
+            };
+        }
+        look(eye, records, seats, fours)
+    }
+
+    /// Asks for what will be read soon.
+    #[inline]
+    pub(super) fn fetch<T>(self, what: &T) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(wide) = self.wide {
+            wide.sse._mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>((&raw const *what).cast());
+        }
+    }
+
+    /// Does a job on many eights.
+    #[inline]
+    pub(super) fn run<J: Tournament>(self, job: J) -> J::Output {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(wide) = self.wide {
+            return wide.vectorize(wide::Run { wide, job });
+        }
+        job.run(Plain)
+    }
+}
+
+/// A job on many eights.
+pub(super) trait Tournament {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run(self, judge: impl Judge) -> Self::Output;
+}
+
+/// Judges eight times.
+pub(super) trait Judge: Copy {
+    /// The smallest.
+    fn least(self, times: &Eight) -> f64;
+    /// A bit for each that equals `time`, the smallest.
+    fn equals(self, times: &Eight, time: f64) -> u32;
+}
+
+/// One by one.
+#[derive(Clone, Copy)]
+struct Plain;
+
+impl Judge for Plain {
+    #[inline]
+    fn least(self, times: &Eight) -> f64 {
+        let smaller = |a: f64, b: f64| if b < a { b } else { a };
+        let [a, b, c, d, e, f, g, h] = times.0;
+        smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)))
+    }
+
+    #[inline]
+    fn equals(self, times: &Eight, time: f64) -> u32 {
+        // none is below the least: one comparison tells, where equality takes two
+        times.0.iter().enumerate().map(|(k, &t)| u32::from(t <= time) << k).sum()
+    }
+}
+
+fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 {
+    let mut meet = 0;
+    for (k, &seat) in seats.iter().enumerate() {
+        let line = &records[seat as usize].line;
+        let (dt, a) = (eye.now - line.t, eye.path.a);
+        let x = eye.path.x - (line.x + (line.v + a * (0.5 * dt)) * dt);
+        let v = eye.path.v - (line.v + a * dt);
+        let reach = eye.r + line.r;
+        let (b, c) = (x.dot(v).min(0.0), x.length_squared() - reach * reach);
+        let discriminant = b * b - v.length_squared() * c;
+        let four = &mut fours[k / 4];
+        (four.b[k % 4], four.c[k % 4], four.discriminant[k % 4]) = (b, c, discriminant);
+        meet |= u64::from(discriminant > 0.0 && b < 0.0) << k;
+    }
+    meet
+}
+
+#[cfg(target_arch = "x86_64")]
+mod wide {
+    use std::arch::x86_64::__m256d;
+
+    use pulp::NullaryFnOnce;
+
+    use super::*;
+
+    /// Looks at pairs of spheres that an acceleration bends or not.
+    pub(super) struct Look<'a, const BENT: bool> {
+        pub(super) wide: V3,
+        pub(super) eye: Eye<'a>,
+        pub(super) records: &'a [Record],
+        pub(super) seats: &'a [u32],
+        pub(super) fours: &'a mut [Four],
+    }
+
+    pub(super) struct Run<J> {
+        pub(super) wide: V3,
+        pub(super) job: J,
+    }
+
+    impl<J: Tournament> NullaryFnOnce for Run<J> {
+        type Output = J::Output;
+
+        #[inline(always)]
+        fn call(self) -> J::Output {
+            self.job.run(self.wide)
+        }
+    }
+
+    impl Judge for V3 {
+        #[inline(always)]
+        fn least(self, times: &Eight) -> f64 {
+            let [low, high] = halves(self, times);
+            let four = self.avx._mm256_min_pd(low, high);
+            let two = self.avx._mm256_min_pd(four, self.avx._mm256_permute2f128_pd::<1>(four, four));
+            let one = self.avx._mm256_min_pd(two, self.avx._mm256_permute_pd::<5>(two));
+            pulp::cast::<__m256d, [f64; 4]>(one)[0]
+        }
+
+        #[inline(always)]
+        fn equals(self, times: &Eight, time: f64) -> u32 {
+            let time = self.avx._mm256_set1_pd(time);
+            let bits = |four| self.avx._mm256_movemask_pd(self.avx._mm256_cmp_pd::<LESS_OR_EQUAL>(four, time)) as u32;
+            let [low, high] = halves(self, times);
+            bits(low) | bits(high) << 4
+        }
+    }
+
+    const LESS_OR_EQUAL: i32 = std::arch::x86_64::_CMP_LE_OQ;
+    const GREATER: i32 = std::arch::x86_64::_CMP_GT_OQ;
+
+    #[inline(always)]
+    fn halves(wide: V3, times: &Eight) -> [__m256d; 2] {
+        let [a, b, c, d, e, f, g, h] = times.0;
+        [wide.avx._mm256_set_pd(d, c, b, a), wide.avx._mm256_set_pd(h, g, f, e)]
+    }
+
+    impl<const BENT: bool> NullaryFnOnce for Look<'_, BENT> {
+        type Output = u64;
+
+        #[inline(always)]
+        fn call(self) -> u64 {
+            let Look { wide, eye, records, seats, fours } = self;
+            let avx = wide.avx;
+            let three = |p: DVec3| avx._mm256_set_pd(0.0, p.z, p.y, p.x);
+            let (x, v, a) = (three(eye.path.x), three(eye.path.v), three(eye.path.a));
+            let (r, zero, half) = (avx._mm256_set1_pd(eye.r), avx._mm256_set1_pd(0.0), avx._mm256_set1_pd(0.5));
+            let now = avx._mm256_set1_pd(eye.now);
+            let mut meet = 0;
+            for (k, (seats, four)) in seats.chunks_exact(4).zip(fours).enumerate() {
+                let lines = [0, 1, 2, 3].map(|lane| &records[seats[lane] as usize].line);
+                // x·v, x·x, v·v, not yet summed, of each of the four
+                let products = lines.map(|line| {
+                    let dt = avx._mm256_sub_pd(now, avx._mm256_set1_pd(line.t));
+                    let lx = avx._mm256_set_pd(line.t, line.x.z, line.x.y, line.x.x);
+                    let lv = avx._mm256_set_pd(line.r, line.v.z, line.v.y, line.v.x);
+                    let faster = |by| if BENT { avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, by)) } else { lv };
+                    let way = avx._mm256_mul_pd(faster(avx._mm256_mul_pd(half, dt)), dt);
+                    let x = avx._mm256_sub_pd(x, avx._mm256_add_pd(lx, way));
+                    let v = avx._mm256_sub_pd(v, faster(dt));
+                    [avx._mm256_mul_pd(x, v), avx._mm256_mul_pd(x, x), avx._mm256_mul_pd(v, v)]
+                });
+                let [b, xx, vv] = [0, 1, 2].map(|which| sums(wide, products.map(|all| all[which])));
+                let radii = avx._mm256_set_pd(lines[3].r, lines[2].r, lines[1].r, lines[0].r);
+                let reach = avx._mm256_add_pd(r, radii);
+                let b = avx._mm256_min_pd(b, zero);
+                let c = avx._mm256_sub_pd(xx, avx._mm256_mul_pd(reach, reach));
+                let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(vv, c));
+                *four = Four { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
+                let (real, near) =
+                    (avx._mm256_cmp_pd::<GREATER>(discriminant, zero), avx._mm256_cmp_pd::<GREATER>(zero, b));
+                let bits = avx._mm256_movemask_pd(avx._mm256_and_pd(real, near));
+                meet |= (bits as u64) << (4 * k);
+            }
+            meet
+        }
+    }
+
+    /// x + y + z of each of four, in this order.
+    #[inline(always)]
+    fn sums(wide: V3, four: [__m256d; 4]) -> __m256d {
+        let [a, b, c, d] = four;
+        let avx = wide.avx;
+        let (even, evens) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpacklo_pd(c, d));
+        let (odd, odds) = (avx._mm256_unpackhi_pd(a, b), avx._mm256_unpackhi_pd(c, d));
+        let x = avx._mm256_permute2f128_pd::<0x20>(even, evens);
+        let y = avx._mm256_permute2f128_pd::<0x20>(odd, odds);
+        let z = avx._mm256_permute2f128_pd::<0x31>(even, evens);
+        avx._mm256_add_pd(avx._mm256_add_pd(x, y), z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::Model;
+    use crate::physics::exact::flight::Flight;
+    use glam::dvec3;
+
+    /// Numbers in [−1, 1) of many magnitudes, the same in every run.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut seed = 1_u64;
+        move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let share = (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+            share * [1.0, 1e-3, 1e3][(seed >> 5) as usize % 3]
+        }
+    }
+
+    #[test]
+    fn four_at_a_time_make_the_bits_of_one_by_one() {
+        let mut number = numbers();
+        let scene =
+            crate::scene::parse("Scene(name: \"one\", spheres: [Sphere(x: (0, 0, 0), mass: 1, radius: 1)])", "one");
+        let model = Model::new(&scene.expect("a valid scene"));
+        let mut records = Flight::new(&model, &model.initial).records;
+        records.resize(MOST, records[0]);
+        for round in 0..2000 {
+            let mut point = || dvec3(number(), number(), number());
+            for record in &mut records {
+                (record.line.x, record.line.v, record.line.t) = (point(), point(), point().x);
+                record.line.r = point().y.abs();
+            }
+            let a = if round % 2 == 0 { DVec3::ZERO } else { point() };
+            let path = Path { x: point(), v: point(), a };
+            let eye = Eye { path: &path, r: 0.5, now: 1.5 };
+            let seats: Vec<u32> = (0..MOST as u32).rev().collect();
+            let (mut wide, mut plain) = ([Four::default(); MOST / 4], [Four::default(); MOST / 4]);
+            let found = Lanes::new().look(eye, &records, &seats, &mut wide);
+            assert_eq!(found, look(eye, &records, &seats, &mut plain));
+            assert_eq!(wide, plain);
+        }
+    }
+
+    #[test]
+    fn eight_at_once_are_judged_as_one_by_one() {
+        struct Judged(Eight);
+        impl Tournament for Judged {
+            type Output = (f64, u32);
+            fn run(self, judge: impl Judge) -> (f64, u32) {
+                let least = judge.least(&self.0);
+                (least, judge.equals(&self.0, least))
+            }
+        }
+        let mut number = numbers();
+        for _ in 0..2000 {
+            // few different times, so that some are equal
+            let times = Eight([0; 8].map(|_| (4.0 * number()).round()));
+            let least = times.0.into_iter().fold(f64::INFINITY, f64::min);
+            let expected = (0..8).map(|k| u32::from(times.0[k] == least) << k).sum();
+            assert_eq!(Lanes::new().run(Judged(times)), (least, expected));
+            assert_eq!(Judged(times).run(Plain), (least, expected));
+        }
+    }
+}
