@@ -23,6 +23,9 @@ const COLLAPSE: u32 = 1000;
 /// that none of them approaches any longer.
 const COLLAPSE_SHARE: u32 = 100;
 
+/// Hops lower than this many radii are watched: do they die out?
+const CHATTER: f64 = 1e-7;
+
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
 
@@ -75,6 +78,10 @@ impl Instant {
         *count > STUCK
     }
 }
+
+/// Small bounces of contacts that other contacts keep alive, by contact: how many in a row, and the speed (m/s) that the
+/// last of them should have had, had it lost at least the root of what restitution takes.
+pub(super) type Chatter = BTreeMap<Key, (u32, f64)>;
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -270,6 +277,10 @@ impl<D: Detector> Exact<D> {
             law.rest_speed = law.rest_speed.max(ZENO * (-meeting.a_n).max(0.0) * tick / (1.0 - restitution));
         }
         let class = classify(meeting.v_n, pressed, &law);
+        if class == Class::Collide && restitution < 1.0 && self.chatters(meeting, restitution) {
+            log.tallies.collapses += 1;
+            return Class::Rest;
+        }
         if class == Class::Collide && restitution < 1.0 && self.instant.events > u64::from(COLLAPSE) {
             let count = self.instant.impacts.entry(meeting.key).or_default();
             *count += 1;
@@ -287,6 +298,21 @@ impl<D: Detector> Exact<D> {
     fn hums(&self, model: &Model, (kind, a, _): Key) -> bool {
         let law = &model.law;
         kind == Kind::Wall && law.wall_restitution == 1.0 && (law.tangential == 1.0 || self.rests.count(a) > 0)
+    }
+
+    /// Whether this small bounce is one of a series that should have died out long ago: spheres wedged against each other
+    /// keep each other hopping, millions of times a second. The limit of such a cascade is that they rest together.
+    fn chatters(&mut self, meeting: &Meeting, restitution: f64) -> bool {
+        if meeting.v_n * meeting.v_n > -2.0 * CHATTER * meeting.reach * meeting.a_n {
+            if !self.chatter.is_empty() {
+                self.chatter.remove(&meeting.key);
+            }
+            return false;
+        }
+        let (count, due) = self.chatter.entry(meeting.key).or_insert((0, -meeting.v_n));
+        *count = count.saturating_add(1);
+        *due *= restitution.sqrt();
+        *count > COLLAPSE && -meeting.v_n > *due
     }
 
     /// Rounding of the clock, s.

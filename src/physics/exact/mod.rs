@@ -31,7 +31,7 @@ use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::{Cells, Near};
 use flight::Flight;
-use impact::Instant;
+use impact::{Chatter, Instant};
 use islands::Rests;
 use lanes::Lanes;
 use queue::Queue;
@@ -74,6 +74,7 @@ pub(super) struct Exact<D> {
     lanes: Lanes,
     rests: Rests,
     instant: Instant,
+    chatter: Chatter,
     /// Gaps computed since the log was last told.
     evaluations: u64,
     origin: Origin,
@@ -120,6 +121,7 @@ impl<D: Detector> Engine for Exact<D> {
             lanes: Lanes::new(),
             rests: Rests::default(),
             instant: Instant::default(),
+            chatter: Chatter::default(),
             evaluations: 0,
             origin,
             resumes: None,
