@@ -114,7 +114,8 @@ mod tests {
     #[test]
     fn the_first_power_below_a_bound_is_the_one_that_counting_finds() {
         for e in [0.0, 1e-3, 0.3, 0.5, 0.8, 0.99, 0.9999] {
-            for bound in [0.999_999, 0.5, 0.25, 0.1, 1e-3, 1e-12] {
+            // none that a power meets but for rounding: there either neighbour is right
+            for bound in [0.999_999, 0.5, 0.25, 0.1, 1e-3, 2e-12] {
                 let mut power: f64 = e;
                 let mut count = 1;
                 while power > bound {
