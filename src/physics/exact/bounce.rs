@@ -37,7 +37,8 @@ fn first_power_below(e: f64, bound: f64) -> f64 {
     }
     let above =
         squares.iter().rev().fold(1.0, |power, square| if power * square > bound { power * square } else { power });
-    above * e
+    // rounding of the squares may have put it an ulp above
+    (above * e).min(bound)
 }
 
 impl<D: Detector> Exact<D> {
