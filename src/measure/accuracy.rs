@@ -13,6 +13,9 @@ use crate::physics::{Method, Scene, Settings};
 /// Seconds on the wall that trying settings may take.
 const PATIENCE: f64 = 4.0;
 
+/// Positions must mean something for at least this share of the run, or no setting can be told from another.
+const TELLING: f64 = 0.01;
+
 /// A setting that meets the error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tried {
@@ -71,6 +74,12 @@ pub fn choose(
     if reference.meaningful() <= 0.0 {
         let reason = if until > 0.0 { "exact does not get beyond t = 0" } else { "the run lasts 0 s" };
         return Err(Miss::Nothing(format!("no accuracy can be measured here: {reason}")));
+    }
+    if reference.meaningful() < TELLING * until {
+        let (meaningful, until) = (short(reference.meaningful(), 1), plain(until));
+        return Err(Miss::Nothing(format!(
+            "no accuracy can be measured here: positions mean something only up to {meaningful} s of {until} s"
+        )));
     }
     let deadline = Deadline::after(PATIENCE);
     let patient = || go_on() && !deadline.is_past();
