@@ -1,4 +1,4 @@
-//! What resting contacts carry, for whoever looks: the run itself needs none of it.
+//! What resting contacts carry: for whoever looks, and to tell a blow from rounding.
 
 use super::*;
 
@@ -38,6 +38,13 @@ impl<D: Detector> Exact<D> {
             held.load.since = held.load.since.max(start);
             held.load = Load { force, since: now, impulse: held.load.given(now) };
         }
+    }
+
+    /// What the load of a resting contact does to its two bodies, m/s²: with it they fall back together after a hop.
+    pub(super) fn pressure(&self, model: &Model, key: Key) -> f64 {
+        let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
+        let force = self.rests.held.get(&key).map_or(0.0, |held| held.load.force);
+        force * (model.inverse_masses[key.1] + other)
     }
 
     /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has

@@ -32,8 +32,6 @@ struct Held {
     announced: bool,
     /// v_n when it was proposed, m/s.
     v_n: f64,
-    /// What its load does to the two bodies, m/s²: they would fall back together with it after a hop.
-    pressure: f64,
     /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
     /// again then, and no rest announced before.
     settles_at: f64,
@@ -229,14 +227,7 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held {
-            part,
-            announced: false,
-            v_n: meeting.v_n,
-            settles_at: bounces_until,
-            pressure: 0.0,
-            load: Load::default(),
-        };
+        let held = Held { part, announced: false, v_n: meeting.v_n, settles_at: bounces_until, load: Load::default() };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {

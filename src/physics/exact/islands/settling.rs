@@ -34,8 +34,7 @@ impl<D: Detector> Exact<D> {
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
             let meeting = self.seen(model, key, self.now);
-            let pressure = self.rests.held.get(&key).map_or(0.0, |held| held.pressure);
-            if meeting.hops_within_rounding(pressure) || self.instant.has_collapsed(key) {
+            if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key) {
                 continue;
             }
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.line(i).v.length() {
@@ -155,12 +154,6 @@ impl<D: Detector> Exact<D> {
         for (place, &i) in spheres.iter().enumerate() {
             self.flight.rewrite(i, self.now, bodies[place].x, bodies[place].v);
             self.flight.accelerate(i, settled.a[place]);
-        }
-        for (key, &force) in keys.iter().zip(&settled.forces) {
-            let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
-            if let Some(held) = self.rests.held.get_mut(key) {
-                held.pressure = force * (model.inverse_masses[key.1] + other);
-            }
         }
         self.announce(model, log, keys, &settled);
         self.carry(keys, &settled.forces);
