@@ -225,6 +225,17 @@ impl<D: Detector> Exact<D> {
         }
     }
 
+    /// The same for somebody who only looks: without what the impact law asks, which takes far longer to find.
+    pub(super) fn shown(&self, model: &Model, key: Key, time: f64) -> Meeting {
+        let (kind, a, b) = key;
+        if kind == Kind::Pair {
+            return self.seen(model, key, time);
+        }
+        let reach = self.flight.line(a).r;
+        let at = touch(&model.faces[b], self.flight.path(a, time).x, reach);
+        Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
+    }
+
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let before = *self.flight.line(key.1);
