@@ -23,6 +23,9 @@ const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e
 /// Thousands of turns of the method's loop after which a scene of 10 s counts as hanging.
 const BUDGET: u64 = 20_000;
 
+/// Thousands of turns from which on a scene is told to have been laborious.
+const LABOUR: u64 = 200;
+
 /// How often each thing was met.
 #[derive(Default, Debug)]
 struct Met {
@@ -191,6 +194,8 @@ fn sweep(seeds: &[(u64, u32)]) -> (Met, Vec<String>) {
             let failure = check(seed, halves, &mut met).err();
             if let Some(failure) = &failure {
                 tell(failure);
+            } else if met.work > LABOUR {
+                tell(&format!("seed {seed}: {} thousand turns, {} impacts", met.work, met.impacts));
             }
             done.push((seed, met, failure));
         }

@@ -23,9 +23,6 @@ const COLLAPSE: u32 = 1000;
 /// that none of them approaches any longer.
 const COLLAPSE_SHARE: u32 = 100;
 
-/// Hops lower than this many radii are watched: do they die out?
-const CHATTER: f64 = 1e-7;
-
 /// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
 const MOST_AT_ONCE: u64 = 1_000_000;
 
@@ -79,10 +76,6 @@ impl Instant {
     }
 }
 
-/// Small bounces of contacts that other contacts keep alive, by contact: how many in a row, and the speed (m/s) that the
-/// last of them should have had, had it lost at least the root of what restitution takes.
-pub(super) type Chatter = BTreeMap<Key, (u32, f64)>;
-
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meeting {
@@ -91,7 +84,7 @@ pub(super) struct Meeting {
     pub(super) normal: DVec3,
     /// Gap, m, and what it is measured by: r, or r₁ + r₂.
     pub(super) gap: f64,
-    reach: f64,
+    pub(super) reach: f64,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
@@ -239,9 +232,10 @@ impl<D: Detector> Exact<D> {
     /// The impact law acts on a contact.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let before = *self.flight.line(key.1);
+        let since = if key.0 == Kind::Pair { before.t.max(self.flight.line(key.2).t) } else { before.t };
         let mut meeting = self.meeting(model, key);
         self.keep_energy(model, &before, &mut meeting);
-        match self.class(model, log, &meeting) {
+        match self.class(model, log, &meeting, since) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest if self.brushes(&meeting) => {
                 self.turn_back(model, &meeting);
@@ -266,7 +260,8 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Class {
+    /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
+    fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting, since: f64) -> Class {
         let (kind, ..) = meeting.key;
         let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
         let pressed = meeting.a_n < 0.0;
@@ -279,8 +274,8 @@ impl<D: Detector> Exact<D> {
             return Class::Rest;
         }
         let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        let dies_out = self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
-        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out {
+        let dies_out = || self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
+        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out() {
             return Class::Rest;
         }
         let mut law = model.law;
@@ -288,7 +283,7 @@ impl<D: Detector> Exact<D> {
             law.rest_speed = law.rest_speed.max(ZENO * (-meeting.a_n).max(0.0) * tick / (1.0 - restitution));
         }
         let class = classify(meeting.v_n, pressed, &law);
-        if class == Class::Collide && restitution < 1.0 && self.chatters(meeting, restitution) {
+        if class == Class::Collide && self.chatters(model, meeting, since) {
             log.tallies.collapses += 1;
             return Class::Rest;
         }
@@ -306,24 +301,17 @@ impl<D: Detector> Exact<D> {
 
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
     /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end.
-    fn hums(&self, model: &Model, (kind, a, _): Key) -> bool {
+    fn hums(&self, model: &Model, (kind, a, b): Key) -> bool {
         let law = &model.law;
-        kind == Kind::Wall && law.wall_restitution == 1.0 && (law.tangential == 1.0 || self.rests.count(a) > 0)
-    }
-
-    /// Whether this small bounce is one of a series that should have died out long ago: spheres wedged against each other
-    /// keep each other hopping, millions of times a second. The limit of such a cascade is that they rest together.
-    fn chatters(&mut self, meeting: &Meeting, restitution: f64) -> bool {
-        if meeting.v_n * meeting.v_n > -2.0 * CHATTER * meeting.reach * meeting.a_n {
-            if !self.chatter.is_empty() {
-                self.chatter.remove(&meeting.key);
-            }
-            return false;
-        }
-        let (count, due) = self.chatter.entry(meeting.key).or_insert((0, -meeting.v_n));
-        *count = count.saturating_add(1);
-        *due *= restitution.sqrt();
-        *count > COLLAPSE && -meeting.v_n > *due
+        let beside = |wall| {
+            touch(&model.faces[wall], self.flight.line(a).x, self.flight.line(a).r).gap
+                <= SMALL_HOP * self.flight.line(a).r
+        };
+        kind == Kind::Wall
+            && law.wall_restitution == 1.0
+            && (law.tangential == 1.0
+                || self.rests.count(a) > 0
+                || (0..model.faces.len()).any(|wall| wall != b && beside(wall)))
     }
 
     /// Rounding of the clock, s.

@@ -8,6 +8,7 @@
 
 mod bounce;
 mod cells;
+mod chatter;
 mod curved;
 mod flight;
 mod impact;
@@ -30,8 +31,9 @@ use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::{Cells, Near};
+use chatter::Chatter;
 use flight::Flight;
-use impact::{Chatter, Instant};
+use impact::Instant;
 use islands::Rests;
 use lanes::Lanes;
 use queue::Queue;
@@ -67,6 +69,8 @@ pub(super) struct Exact<D> {
     /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
     next: Option<(f64, usize)>,
     cells: Option<Box<Cells>>,
+    /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
+    until: f64,
     /// Lent to whoever looks around.
     near: Near,
     /// Crossings since the spheres were seated.
@@ -116,6 +120,7 @@ impl<D: Detector> Engine for Exact<D> {
             queue: Queue::new(count),
             next: None,
             cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
+            until: f64::INFINITY,
             near: Near::nobody(),
             crossings: 0,
             scout: Scout::default(),

@@ -55,6 +55,7 @@ impl<D: Detector> Exact<D> {
     /// The same for the sphere at a seat.
     pub(super) fn predict_at(&mut self, model: &Model, seat: usize) {
         let path = self.flight.path_from(seat, self.now);
+        self.until = self.rests.end_of(self.flight.sphere(seat)).next_up();
         let mut plan = Plan::IDLE;
         self.evaluations += if self.cells.is_some() {
             self.meet_near(model, seat, &path, None, &mut plan)
@@ -70,6 +71,7 @@ impl<D: Detector> Exact<D> {
     /// The sphere at a seat crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
     pub(super) fn cross(&mut self, model: &Model, seat: usize) {
         let path = self.flight.path_from(seat, self.now);
+        self.until = self.rests.end_of(self.flight.sphere(seat)).next_up();
         let seats = self.flight.records.len();
         let Exact { cells: Some(cells), flight, .. } = self else { return };
         let record = &mut flight.records[seat];
@@ -171,14 +173,16 @@ impl<D: Detector> Exact<D> {
     #[inline]
     fn span_for_walls(&self, plan: &Plan) -> Span {
         match plan.kind {
-            Kind::Pair if D::SOLVES => Span { now: self.now, before: (plan.contact.next_up() - self.now).next_up() },
+            Kind::Pair if D::SOLVES => {
+                Span { now: self.now, before: (plan.contact.min(self.until).next_up() - self.now).next_up() }
+            }
             _ => self.span_before(plan.contact),
         }
     }
 
     #[inline]
     fn span_before(&self, time: f64) -> Span {
-        Span { now: self.now, before: time - self.now }
+        Span { now: self.now, before: time.min(self.until) - self.now }
     }
 
     /// Looks at the pairs of a sphere and those near it, itself among them; returns how many.

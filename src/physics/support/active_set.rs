@@ -17,7 +17,7 @@ use super::problem::{Problem, ROUNDING};
 
 /// A column of which less than this is new depends on the others: rounding makes 1e-16 of it, times the condition of
 /// the set. What a sphere 1e12 times heavier than the one below it adds is 1e-6.
-const DEPENDENT: f64 = 1e-11;
+pub(super) const DEPENDENT: f64 = 1e-11;
 
 /// The same while a guessed set is taken over: contacts left out by mistake join later.
 const DOUBTFUL: f64 = 1e-6;
@@ -47,19 +47,6 @@ pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Found {
         passes += 1;
     }
     Found { u: set.velocities(), multipliers: set.forces(), passes, slack: set.slack }
-}
-
-/// The projection of u₀ onto {gⱼ·u + cⱼ = 0} for all rows, both ways: these contacts may pull. Dependent rows are left
-/// to those that they depend on.
-pub(super) fn bind(problem: &Problem) -> Found {
-    let mut set = ActiveSet::new(problem, &[]);
-    for row in 0..problem.rows.len() {
-        set.append(row, DEPENDENT);
-    }
-    for (&row, load) in set.holding.clone().iter().zip(set.project()) {
-        set.loads[row] = load;
-    }
-    Found { u: set.velocities(), multipliers: set.forces(), passes: 1, slack: set.slack }
 }
 
 /// The contacts that hold, and the factor of their columns.

@@ -24,11 +24,9 @@ pub(super) enum Append {
 impl Factor {
     /// Appends a unit column, unless less than `threshold` of it is new.
     pub(super) fn append(&mut self, mut column: Vec<f64>, threshold: f64) -> Append {
-        let mut inside = vec![0.0; self.q.len()];
-        for _ in 0..2 {
-            let parts = self.project_out(&mut column);
-            inside.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
-        }
+        let mut inside = self.project_out(&mut column);
+        let rest = self.project_out(&mut column);
+        inside.iter_mut().zip(rest).for_each(|(sum, part)| *sum += part);
         let new = dot(&column, &column).sqrt();
         if new <= threshold {
             return Append::Dependent(self.back_substitute(inside));

@@ -11,6 +11,7 @@
 //! Plain data in, plain data out; nothing here knows of scenes, walls or time.
 
 mod active_set;
+mod bind;
 mod enumerate;
 mod factor;
 mod gauss_seidel;
@@ -18,6 +19,7 @@ mod hold;
 mod island;
 mod problem;
 
+pub use bind::bind;
 pub use hold::{Bodies, Fate, Held, Resting, Surface, accelerations, hold, velocities};
 pub use island::{Island, islands};
 
@@ -148,35 +150,6 @@ pub fn solve(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) 
     solution.vectors = bodies.iter().map(|entry| entry.1).collect();
     solution.rounding = bodies.iter().map(|entry| entry.2).collect();
     solution
-}
-
-/// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0: every row holds and may pull. For the time between events, while it is known
-/// which contacts hold. Returns u by body and λ by row; a row that depends on others is left to them, with λ = 0.
-pub fn bind(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<f64>) {
-    if let [row] = rows {
-        return bind_one(inverse_mass, free, row);
-    }
-    let island = Island { bodies: (0..free.len()).collect(), contacts: (0..rows.len()).collect() };
-    let found = active_set::bind(&Problem::new(inverse_mass, free, rows, &island));
-    (found.u, found.multipliers)
-}
-
-/// [`bind`] for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.
-fn bind_one(inverse_mass: &[f64], free: &[DVec3], row: &Row) -> (Vec<DVec3>, Vec<f64>) {
-    let mut u = free.to_vec();
-    let weight = inverse_mass[row.a] + row.b.map_or(0.0, |b| inverse_mass[b]);
-    let mut total = 0.0;
-    // The second turn takes back what rounding has left of the first.
-    for _ in 0..2 {
-        let relative = u[row.a] - row.b.map_or(DVec3::ZERO, |b| u[b]);
-        let force = -(row.normal.dot(relative) + row.offset) / weight;
-        total += force;
-        u[row.a] += row.normal * (force * inverse_mass[row.a]);
-        if let Some(b) = row.b {
-            u[b] -= row.normal * (force * inverse_mass[b]);
-        }
-    }
-    (u, vec![total])
 }
 
 /// One island's answer.

@@ -36,6 +36,13 @@ const FINEST: f64 = 16.0 * f64::EPSILON;
 /// Length of the first arc, in units of the time in which the motion changes.
 const FIRST: f64 = 0.05;
 
+/// Length of the first arc after something has happened, in the same units: it may happen again at once, a million times
+/// a second, and so short an arc costs a quarter.
+const BRIEF: f64 = 1e-4;
+
+/// Up to this share of an arc v of its polynomial is as good as integrated: its error grows as the square.
+const BEGINNING: f64 = 1e-3;
+
 /// Length of the longest, in the same units: however straight it is, its loads must not change behind our back.
 const LONGEST: f64 = 0.2;
 
@@ -135,7 +142,13 @@ impl Arc {
         if time >= self.span {
             return self.end.bodies.clone();
         }
-        Motion::held_by(&self.start.bodies, contacts, &self.loaded).moved(&self.start.bodies, time)
+        let motion = Motion::held_by(&self.start.bodies, contacts, &self.loaded);
+        if time > BEGINNING * self.span {
+            return motion.moved(&self.start.bodies, time);
+        }
+        let mut bodies = self.at(time);
+        motion.restore(&mut bodies);
+        bodies
     }
 
     fn of(mut bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
@@ -144,7 +157,8 @@ impl Arc {
         motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
         let scale = start.time_scale();
-        let mut span = span.unwrap_or(FIRST * scale).min(LONGEST * scale);
+        let Some(span) = span else { return Arc::brief(start, &motion, BRIEF * scale, loaded) };
+        let mut span = if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale };
         // The error falls with the sixth power, so that a second try nearly always does.
         for _ in 0..30 {
             let bodies = motion.moved(&start.bodies, span);
@@ -155,13 +169,22 @@ impl Arc {
             let growth = cube_root(arc.allowance(&middle).sqrt());
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= 1.0 {
-                arc.cut_short(&motion);
+                arc.cut_short(&motion, &LOOKS);
                 return arc;
             }
             span *= (0.8 * growth).max(0.05);
         }
         // Out of reach of numbers: no motion at all, which the watchdog of the method will notice.
         Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded }
+    }
+
+    /// An arc so short that neither its integration nor its polynomial needs looking at.
+    fn brief(start: Ends, motion: &Motion, span: f64, loaded: Vec<bool>) -> Arc {
+        let bodies = motion.moved_a_little(&start.bodies, span);
+        let end = Ends { a: motion.accelerations(&bodies).0, bodies };
+        let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
+        arc.cut_short(motion, &LOOKS[3..]);
+        arc
     }
 
     /// How many times the error in the middle, where the bodies really are at `middle`, fits into what is allowed.
@@ -209,21 +232,49 @@ impl Arc {
         Polynomial { x: start.x, v: start.v, a, b, span: h }
     }
 
-    /// Ends the arc where a contact changes first, by bisection, [`OVERSHOOT`] of it late.
-    fn cut_short(&mut self, motion: &Motion) {
+    /// Ends the arc where a contact changes first, as far as these fractions of it show, [`OVERSHOOT`] of it late.
+    fn cut_short(&mut self, motion: &Motion, looks: &[f64]) {
         let before = motion.marks(&self.start.bodies);
         let margin = |time: f64| motion.margin(&self.at(time), &before);
-        let looks = LOOKS.map(|share| share * self.span);
-        let Some(failed) = looks.iter().position(|&time| margin(time) < 0.0) else { return };
-        let (mut good, mut bad) = (if failed > 0 { looks[failed - 1] } else { 0.0 }, looks[failed]);
-        // Thirty-five halvings are finer than the overshoot.
-        for _ in 0..35 {
-            let middle = 0.5 * (good + bad);
-            if margin(middle) < 0.0 { bad = middle } else { good = middle }
+        let mut good = (0.0, f64::INFINITY);
+        for share in looks {
+            let look = (share * self.span, margin(share * self.span));
+            if look.1 < 0.0 {
+                let change = last_change(&margin, good, look, 0.25 * OVERSHOOT * self.span);
+                self.length = (change + OVERSHOOT * self.span).min(self.span);
+                self.changes = true;
+                return;
+            }
+            good = look;
         }
-        self.length = (bad + OVERSHOOT * self.span).min(self.span);
-        self.changes = true;
     }
+}
+
+/// The end of an interval no longer than `precision` in which `margin` falls below 0: between a time at which it is not
+/// and a later one at which it is, each with its margin. By the rule of false position, halved where that creeps
+/// (the Illinois method; Dowell, Jarratt, BIT 11, 168, 1971), and by bisection if that takes long.
+fn last_change(margin: &impl Fn(f64) -> f64, good: (f64, f64), bad: (f64, f64), precision: f64) -> f64 {
+    let ((mut from, mut above), (mut to, mut below)) = (good, bad);
+    let mut side = 0;
+    for count in 0..80 {
+        if to - from <= precision {
+            break;
+        }
+        let share = above / (above - below);
+        // each end stays out of the way of the other: a root next to one end is then closed in from both
+        let aside = (0.5 * precision / (to - from)).min(0.5);
+        let share = if share.is_finite() && count < 40 { share.clamp(aside, 1.0 - aside) } else { 0.5 };
+        let time = from + share * (to - from);
+        let left = margin(time);
+        if left < 0.0 {
+            above *= if side < 0 { 0.5 } else { 1.0 };
+            (to, below, side) = (time, left, -1);
+        } else {
+            below *= if side > 0 { 0.5 } else { 1.0 };
+            (from, above, side) = (time, left, 1);
+        }
+    }
+    to
 }
 
 /// x + v t + a t²/2 + s³ (b₃ + b₄ s + b₅ s²), s = t/span.
@@ -275,19 +326,18 @@ impl Body {
 
 /// ∛y for y ≥ 0 (∞ of ∞), by Newton's method from above: with + − × ÷ alone, the same on every machine.
 fn cube_root(y: f64) -> f64 {
-    if !(y > 0.0 && y.is_finite()) {
-        return y;
+    if !(y >= f64::MIN_POSITIVE && y.is_finite()) {
+        return if y < f64::MIN_POSITIVE { 0.0 } else { y };
     }
-    let mut root = y.max(1.0);
-    // From above every step shrinks by a third at least until it is near: 1e300 takes some six hundred.
-    for _ in 0..2000 {
+    // A third of the exponent, and of the mantissa for want of better: at most 6 % too much.
+    let mut root = f64::from_bits(y.to_bits() / 3 + (1023_u64 << 52) / 3 * 2);
+    loop {
         let next = (2.0 * root + y / (root * root)) / 3.0;
         if next >= root {
-            break;
+            return root;
         }
         root = next;
     }
-    root
 }
 
 #[cfg(test)]

@@ -190,6 +190,12 @@ impl Rests {
         }
     }
 
+    /// When the parabola of sphere `i` ends with its island's, s: all plans of its spheres are made anew then.
+    #[inline]
+    pub(super) fn end_of(&self, i: usize) -> f64 {
+        self.island(i).map_or(f64::INFINITY, |island| island.end)
+    }
+
     #[inline]
     fn island(&self, i: usize) -> Option<&Island> {
         let &number = self.island_of.get(i)?;

@@ -1,0 +1,78 @@
+//! Chatter: small bounces that other contacts keep from dying out, millions of times a second. Spheres wedged against
+//! each other do that as soon as restitution takes energy. The limit of such a cascade is that they rest together.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::Exact;
+use super::impact::Meeting;
+use crate::physics::contact::Key;
+use crate::physics::detector::Detector;
+use crate::physics::{Kind, Model};
+
+/// A bounce is small if the gap has opened by less than this many radii since the impact before.
+const SMALL: f64 = 1e-7;
+
+/// So many bounces in a row must not have died out, and so many times 1 / (1 − e): restitution alone would have left e⁻⁵⁰
+/// of their speed.
+const MANY: u32 = 100;
+const DECAY: f64 = 50.0;
+
+/// Small bounces of some contacts, each in a row so far.
+pub(super) type Chatter = BTreeMap<Key, Row>;
+
+/// A row of small bounces of one contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    count: u32,
+    /// When the last of them was, s.
+    last: f64,
+    /// The approach speed (m/s) that it should have had at most, had each lost at least the root of what restitution takes.
+    due: f64,
+}
+
+impl Row {
+    fn is_endless(&self, approach_speed: f64, keeps: f64) -> bool {
+        let count = f64::from(self.count);
+        self.count > MANY && count * (1.0 - keeps) > DECAY && approach_speed > self.due
+    }
+}
+
+impl<D: Detector> Exact<D> {
+    /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
+    /// bodies last changed.
+    pub(super) fn chatters(&mut self, model: &Model, meeting: &Meeting, since: f64) -> bool {
+        let Some(keeps) = self.keeps(model, meeting.key) else { return false };
+        let (now, approach_speed) = (self.now, -meeting.v_n);
+        let since = self.chatter.get(&meeting.key).map_or(since, |row| row.last);
+        // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
+        if approach_speed * (now - since) > 4.0 * SMALL * meeting.reach {
+            self.chatter.remove(&meeting.key);
+            return false;
+        }
+        let row = self.chatter.entry(meeting.key).or_insert(Row { count: 0, last: now, due: approach_speed });
+        row.count = row.count.saturating_add(1);
+        row.last = now;
+        row.due *= keeps.sqrt();
+        row.is_endless(approach_speed, keeps)
+    }
+
+    /// Which share of its speed a small bounce keeps at most if it dies out. One on an elastic wall does so only where
+    /// the sphere rests on something else too, and what it passes on to that is lost.
+    fn keeps(&self, model: &Model, (kind, a, b): Key) -> Option<f64> {
+        let law = &model.law;
+        let pulled = |i: usize| model.acceleration(i) != DVec3::ZERO;
+        if !pulled(a) && !(kind == Kind::Pair && pulled(b)) {
+            // nothing feeds a cascade: it dies out, or collapses at one instant
+            return None;
+        }
+        let keeps = match kind {
+            Kind::Pair => law.restitution,
+            Kind::Wall if law.wall_restitution < 1.0 => law.wall_restitution,
+            Kind::Wall if self.rests.count(a) > 0 => law.restitution.min(law.tangential),
+            Kind::Wall => 1.0,
+        };
+        (keeps < 1.0).then_some(keeps)
+    }
+}
