@@ -46,6 +46,8 @@ struct Met {
     work: u64,
     deepest: f64,
     gain: f64,
+    /// Sum of the hashes of the last states, modulo 2⁶⁴: the same on every machine.
+    hash: u64,
 }
 
 /// Largest −gap / r of the state, walls and pairs.
@@ -115,6 +117,7 @@ fn check(seed: u64, halves: u32, met: &mut Met) -> Result<(), String> {
         }
         least = least.min(energy);
     }
+    met.hash = run.state().hash();
     met.count(&mut run);
     Ok(())
 }
@@ -180,6 +183,7 @@ impl Met {
         self.work += other.work;
         self.deepest = self.deepest.max(other.deepest);
         self.gain = self.gain.max(other.gain);
+        self.hash = self.hash.wrapping_add(other.hash);
     }
 }
 

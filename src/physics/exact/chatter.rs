@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use super::impact::Meeting;
+use super::impact::{HOP, Meeting};
 use crate::physics::contact::Key;
 use crate::physics::detector::Detector;
 use crate::physics::{Kind, Model};
@@ -18,6 +18,9 @@ const SMALL: f64 = 1e-7;
 /// of their speed.
 const MANY: u32 = 100;
 const DECAY: f64 = 50.0;
+
+/// Elastic bounces in a row that coordinates cannot tell from none.
+const LOST: u32 = 1000;
 
 /// Small bounces of some contacts, each in a row so far.
 pub(super) type Chatter = BTreeMap<Key, Row>;
@@ -34,6 +37,9 @@ pub(super) struct Row {
 
 impl Row {
     fn is_endless(&self, approach_speed: f64, keeps: f64) -> bool {
+        if keeps == 1.0 {
+            return self.count > LOST;
+        }
         let count = f64::from(self.count);
         self.count > MANY && count * (1.0 - keeps) > DECAY && approach_speed > self.due
     }
@@ -43,11 +49,15 @@ impl<D: Detector> Exact<D> {
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
     /// bodies last changed.
     pub(super) fn chatters(&mut self, model: &Model, meeting: &Meeting, since: f64) -> bool {
-        let Some(keeps) = self.keeps(model, meeting.key) else { return false };
+        if !self.is_fed(model, meeting.key) {
+            return false;
+        }
         let (now, approach_speed) = (self.now, -meeting.v_n);
         let since = self.chatter.get(&meeting.key).map_or(since, |row| row.last);
+        let keeps = self.keeps(model, meeting.key);
+        let small = if keeps < 1.0 { SMALL * meeting.reach } else { HOP * meeting.size() };
         // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
-        if approach_speed * (now - since) > 4.0 * SMALL * meeting.reach {
+        if approach_speed * (now - since) > 4.0 * small {
             self.chatter.remove(&meeting.key);
             return false;
         }
@@ -58,21 +68,21 @@ impl<D: Detector> Exact<D> {
         row.is_endless(approach_speed, keeps)
     }
 
-    /// Which share of its speed a small bounce keeps at most if it dies out. One on an elastic wall does so only where
-    /// the sphere rests on something else too, and what it passes on to that is lost.
-    fn keeps(&self, model: &Model, (kind, a, b): Key) -> Option<f64> {
-        let law = &model.law;
+    /// Whether anything pulls a body of this contact. What nothing feeds dies out, or collapses at one instant.
+    fn is_fed(&self, model: &Model, (kind, a, b): Key) -> bool {
         let pulled = |i: usize| model.acceleration(i) != DVec3::ZERO;
-        if !pulled(a) && !(kind == Kind::Pair && pulled(b)) {
-            // nothing feeds a cascade: it dies out, or collapses at one instant
-            return None;
-        }
-        let keeps = match kind {
-            Kind::Pair => law.restitution,
-            Kind::Wall if law.wall_restitution < 1.0 => law.wall_restitution,
-            Kind::Wall if self.rests.count(a) > 0 => law.restitution.min(law.tangential),
-            Kind::Wall => 1.0,
+        pulled(a) || (kind == Kind::Pair && pulled(b))
+    }
+
+    /// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
+    /// bodies rests on something else too, and what it passes on to that is lost.
+    fn keeps(&self, model: &Model, (kind, a, b): Key) -> f64 {
+        let law = &model.law;
+        let (own, other) = match kind {
+            Kind::Pair => (law.restitution, law.wall_restitution),
+            Kind::Wall => (law.wall_restitution, law.restitution),
         };
-        (keeps < 1.0).then_some(keeps)
+        let rests = self.rests.count(a) > 0 || (kind == Kind::Pair && self.rests.count(b) > 0);
+        if own == 1.0 && rests { other.min(law.tangential) } else { own }
     }
 }

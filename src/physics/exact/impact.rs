@@ -97,7 +97,12 @@ impl Meeting {
     /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
     /// speed at which they approach or part.
     pub(super) fn hops_within_rounding(&self, pull: f64) -> bool {
-        self.v_n * self.v_n <= 2.0 * pull * HOP * self.point.abs().max_element().max(self.reach)
+        self.v_n * self.v_n <= 2.0 * pull * HOP * self.size()
+    }
+
+    /// What rounding of its coordinates is relative to, m.
+    pub(super) fn size(&self) -> f64 {
+        self.point.abs().max_element().max(self.reach)
     }
 
     /// The row of this contact: `impulse` in N s, v_n afterwards in m/s.
