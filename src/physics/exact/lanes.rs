@@ -93,10 +93,10 @@ pub(super) trait Tournament {
 
 /// Judges eight times.
 pub(super) trait Judge: Copy {
-    /// The smallest.
-    fn least(self, times: &Eight) -> f64;
-    /// A bit for each that equals `time`, the smallest.
-    fn equals(self, times: &Eight, time: f64) -> u32;
+    /// The smallest, and a bit for each that equals it.
+    fn judge(self, times: &Eight) -> (f64, u32);
+    /// Puts `time` in the place `k` of another, and judges.
+    fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32);
 }
 
 /// One by one.
@@ -105,16 +105,18 @@ struct Plain;
 
 impl Judge for Plain {
     #[inline]
-    fn least(self, times: &Eight) -> f64 {
+    fn judge(self, times: &Eight) -> (f64, u32) {
         let smaller = |a: f64, b: f64| if b < a { b } else { a };
         let [a, b, c, d, e, f, g, h] = times.0;
-        smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)))
+        let least = smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)));
+        // none is below the least: one comparison tells, where equality takes two
+        (least, times.0.iter().enumerate().map(|(k, &t)| u32::from(t <= least) << k).sum())
     }
 
     #[inline]
-    fn equals(self, times: &Eight, time: f64) -> u32 {
-        // none is below the least: one comparison tells, where equality takes two
-        times.0.iter().enumerate().map(|(k, &t)| u32::from(t <= time) << k).sum()
+    fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32) {
+        times.0[k] = time;
+        self.judge(times)
     }
 }
 
@@ -168,24 +170,36 @@ mod wide {
 
     impl Judge for V3 {
         #[inline(always)]
-        fn least(self, times: &Eight) -> f64 {
-            let [low, high] = halves(self, times);
-            let four = self.avx._mm256_min_pd(low, high);
-            let two = self.avx._mm256_min_pd(four, self.avx._mm256_permute2f128_pd::<1>(four, four));
-            let one = self.avx._mm256_min_pd(two, self.avx._mm256_permute_pd::<5>(two));
-            pulp::cast::<__m256d, [f64; 4]>(one)[0]
+        fn judge(self, times: &Eight) -> (f64, u32) {
+            judge(self, halves(self, times))
         }
 
         #[inline(always)]
-        fn equals(self, times: &Eight, time: f64) -> u32 {
-            let time = self.avx._mm256_set1_pd(time);
-            let bits = |four| self.avx._mm256_movemask_pd(self.avx._mm256_cmp_pd::<LESS_OR_EQUAL>(four, time)) as u32;
+        fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32) {
+            // in registers: what has just been written to memory in one piece is slow to read with what is beside it
+            let (k, time) = (self.avx._mm256_set1_pd(k as f64), self.avx._mm256_set1_pd(time));
             let [low, high] = halves(self, times);
-            bits(low) | bits(high) << 4
+            let place = |first: f64| self.avx._mm256_set_pd(first + 3.0, first + 2.0, first + 1.0, first);
+            let here = |first: f64| self.avx._mm256_cmp_pd::<EQUAL>(k, place(first));
+            let both = [self.avx._mm256_blendv_pd(low, time, here(0.0)), self.avx._mm256_blendv_pd(high, time, here(4.0))];
+            times.0 = pulp::cast(both);
+            judge(self, both)
         }
     }
 
+    #[inline(always)]
+    fn judge(wide: V3, [low, high]: [__m256d; 2]) -> (f64, u32) {
+        let avx = wide.avx;
+        let four = avx._mm256_min_pd(low, high);
+        let two = avx._mm256_min_pd(four, avx._mm256_permute2f128_pd::<1>(four, four));
+        let least = avx._mm256_min_pd(two, avx._mm256_permute_pd::<5>(two));
+        // none is below the least: as in the plain judge
+        let bits = |four| avx._mm256_movemask_pd(avx._mm256_cmp_pd::<LESS_OR_EQUAL>(four, least)) as u32;
+        (pulp::cast::<__m256d, [f64; 4]>(least)[0], bits(low) | bits(high) << 4)
+    }
+
     const LESS_OR_EQUAL: i32 = std::arch::x86_64::_CMP_LE_OQ;
+    const EQUAL: i32 = std::arch::x86_64::_CMP_EQ_OQ;
     const GREATER: i32 = std::arch::x86_64::_CMP_GT_OQ;
 
     #[inline(always)]
@@ -293,22 +307,24 @@ mod tests {
 
     #[test]
     fn eight_at_once_are_judged_as_one_by_one() {
-        struct Judged(Eight);
+        struct Judged(Eight, usize, f64);
         impl Tournament for Judged {
-            type Output = (f64, u32);
-            fn run(self, judge: impl Judge) -> (f64, u32) {
-                let least = judge.least(&self.0);
-                (least, judge.equals(&self.0, least))
+            type Output = [(f64, u32); 2];
+            fn run(mut self, judge: impl Judge) -> [(f64, u32); 2] {
+                [judge.exchange(&mut self.0, self.1, self.2), judge.judge(&self.0)]
             }
         }
         let mut number = numbers();
-        for _ in 0..2000 {
+        for round in 0..2000 {
             // few different times, so that some are equal
-            let times = Eight([0; 8].map(|_| (4.0 * number()).round()));
-            let least = times.0.into_iter().fold(f64::INFINITY, f64::min);
-            let expected = (0..8).map(|k| u32::from(times.0[k] == least) << k).sum();
-            assert_eq!(Lanes::new().run(Judged(times)), (least, expected));
-            assert_eq!(Judged(times).run(Plain), (least, expected));
+            let mut few = || (4.0 * number()).round();
+            let (times, time) = (Eight([0; 8].map(|_| few())), few());
+            let mut then = times.0;
+            then[round % 8] = time;
+            let least = then.into_iter().fold(f64::INFINITY, f64::min);
+            let expected = [(least, (0..8).map(|k| u32::from(then[k] == least) << k).sum()); 2];
+            assert_eq!(Lanes::new().run(Judged(times, round % 8, time)), expected);
+            assert_eq!(Judged(times, round % 8, time).run(Plain), expected);
         }
     }
 }

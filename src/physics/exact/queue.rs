@@ -1,8 +1,9 @@
 //! The earliest event of many: a tournament of eight.
 //!
 //! Each seat has one entry, the time of its next event. Every eight entries share a winner one level up, so that a
-//! changed entry is one cache line a level and a million spheres are seven levels. Bounded memory, no rebuilding, no
-//! dependence on how event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
+//! changed entry is one cache line a level and a million spheres are seven levels. Who wins is kept beside the winner's
+//! time, so that the first of all is found without going down again. Bounded memory, no rebuilding, no dependence on how
+//! event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
 
 use super::lanes::{Eight, Judge, Lanes, Tournament};
 
@@ -12,11 +13,16 @@ const FAN: usize = 8;
 /// Levels that the indices of spheres can need: 8¹¹ > 2³².
 const MOST_LEVELS: usize = 11;
 
+/// In place of a winner: several have the same time.
+const TIED: u32 = u32::MAX;
+
 /// The next event time at each seat, s; infinite where there is none.
 #[derive(Debug, Clone)]
 pub(super) struct Queue {
     /// Leaves first, then winners of eight, up to a level of one block.
     blocks: Vec<Eight>,
+    /// Who won each entry above the leaves, block by block from the second level on.
+    winners: Vec<[u32; FAN]>,
     /// Where each level begins.
     starts: [usize; MOST_LEVELS],
     levels: usize,
@@ -34,7 +40,10 @@ impl Queue {
             width = width.div_ceil(FAN);
             total += width;
             if width == 1 {
-                return Queue { blocks: vec![Eight([f64::INFINITY; FAN]); total], starts, levels, lanes: Lanes::new() };
+                let blocks = vec![Eight([f64::INFINITY; FAN]); total];
+                let leaves = if levels > 1 { starts[1] } else { total };
+                let winners = vec![[TIED; FAN]; total - leaves];
+                return Queue { blocks, winners, starts, levels, lanes: Lanes::new() };
             }
         }
     }
@@ -42,11 +51,8 @@ impl Queue {
     /// Sets the next event at a seat to `time`, s.
     #[inline]
     pub(super) fn set(&mut self, seat: usize, time: f64) {
-        self.blocks[seat / FAN].0[seat % FAN] = time;
-        if self.levels > 1 {
-            let lanes = self.lanes;
-            lanes.run(Lift { queue: self, seat });
-        }
+        let lanes = self.lanes;
+        lanes.run(Lift { queue: self, seat, time });
     }
 
     /// The earliest time and its seat; among equal times the one that `before` puts first; seat 0 if nothing ever
@@ -55,8 +61,8 @@ impl Queue {
     pub(super) fn first(&self, before: impl Fn(usize, usize) -> bool) -> (f64, usize) {
         match self.lanes.run(Winner { queue: self }) {
             (f64::INFINITY, _) => (f64::INFINITY, 0),
-            (time, Some(seat)) => (time, seat),
-            (time, None) => (time, self.first_of_equals(time, before)),
+            (time, TIED) => (time, self.first_of_equals(time, before)),
+            (time, seat) => (time, seat as usize),
         }
     }
 
@@ -107,10 +113,12 @@ impl Queue {
     }
 }
 
-/// An entry has changed: the winners above it are found anew, up to the first that stays.
+/// An entry changes: the winners above it are found anew, up to the first that stays.
 struct Lift<'a> {
     queue: &'a mut Queue,
     seat: usize,
+    /// The new time, s.
+    time: f64,
 }
 
 impl Tournament for Lift<'_> {
@@ -118,16 +126,29 @@ impl Tournament for Lift<'_> {
 
     #[inline(always)]
     fn run(self, judge: impl Judge) {
-        let Queue { blocks, starts, levels, .. } = self.queue;
-        let mut place = self.seat / FAN;
-        for level in 1..*levels {
-            let winner = judge.least(&blocks[starts[level - 1] + place]);
-            let entry = &mut blocks[starts[level] + place / FAN].0[place % FAN];
-            if *entry == winner {
+        let Lift { queue: Queue { blocks, winners, starts, levels, .. }, seat, mut time } = self;
+        let leaves = starts[1];
+        let mut place = seat;
+        for level in 0..*levels {
+            let block = starts[level] + place / FAN;
+            let (least, equal) = judge.exchange(&mut blocks[block], place % FAN, time);
+            if level + 1 == *levels {
                 return;
             }
-            *entry = winner;
             place /= FAN;
+            let above = starts[level + 1] + place / FAN;
+            let winner = if equal & equal.wrapping_sub(1) != 0 {
+                TIED
+            } else if level == 0 {
+                (place * FAN) as u32 + equal.trailing_zeros()
+            } else {
+                winners[block - leaves][equal.trailing_zeros() as usize % FAN]
+            };
+            let entry = &mut winners[above - leaves][place % FAN];
+            if *entry == winner && blocks[above].0[place % FAN] == least {
+                return;
+            }
+            (*entry, time) = (winner, least);
         }
     }
 }
@@ -138,21 +159,20 @@ struct Winner<'a> {
 }
 
 impl Tournament for Winner<'_> {
-    type Output = (f64, Option<usize>);
+    type Output = (f64, u32);
 
     #[inline(always)]
-    fn run(self, judge: impl Judge) -> (f64, Option<usize>) {
-        let Queue { blocks, starts, levels, .. } = self.queue;
-        let time = judge.least(&blocks[starts[levels - 1]]);
-        let mut place = 0;
-        for level in (0..*levels).rev() {
-            let equal = judge.equals(&blocks[starts[level] + place], time);
-            if equal & equal.wrapping_sub(1) != 0 {
-                return (time, None);
-            }
-            place = place * FAN + equal.trailing_zeros() as usize;
-        }
-        (time, Some(place))
+    fn run(self, judge: impl Judge) -> (f64, u32) {
+        let Queue { blocks, winners, .. } = self.queue;
+        let Some(root) = blocks.last() else { return (f64::INFINITY, TIED) };
+        let (time, equal) = judge.judge(root);
+        let first = equal.trailing_zeros();
+        let winner = match winners.last() {
+            _ if equal & equal.wrapping_sub(1) != 0 => TIED,
+            Some(winners) => winners[first as usize % FAN],
+            None => first,
+        };
+        (time, winner)
     }
 }
 
