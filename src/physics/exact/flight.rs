@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use super::cells::Cube;
+use super::cells::Spot;
 use super::lanes::Lanes;
 use super::prediction::Plan;
 use crate::physics::contact_time::Path;
@@ -37,7 +37,7 @@ pub(super) struct Record {
     pub(super) line: Line,
     pub(super) plan: Plan,
     /// The cube it is in, if there are cells.
-    pub(super) cube: Cube,
+    pub(super) spot: Spot,
     /// How often its motion has changed.
     pub(super) stamp: u32,
     /// Its index in the scene.
@@ -75,7 +75,7 @@ impl Flight {
         let record = |i: usize| Record {
             line: Line { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
             plan: Plan::IDLE,
-            cube: [0; 3],
+            spot: Spot::default(),
             stamp: 0,
             sphere: i as u32,
             inverse_mass: model.inverse_masses[i],

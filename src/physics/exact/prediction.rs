@@ -74,7 +74,7 @@ impl<D: Detector> Exact<D> {
         let Exact { cells: Some(cells), flight, .. } = self else { return };
         let record = &mut flight.records[seat];
         let mut plan = record.plan;
-        record.cube = cells.cross(seat, record.cube, plan.way, seats);
+        record.spot = cells.cross(seat, record.spot, plan.way, seats);
         self.evaluations += self.meet_near(model, seat, &path, Some(plan.way), &mut plan);
         self.flight.records[seat].plan = plan;
         self.schedule(seat);
@@ -85,15 +85,15 @@ impl<D: Detector> Exact<D> {
     /// when it went `way`; and when it will leave its cube. Returns how many it looked at.
     fn meet_near(&mut self, model: &Model, seat: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
         let Some(cells) = &self.cells else { return 0 };
-        let cube = self.flight.records[seat].cube;
+        let spot = self.flight.records[seat].spot;
         let mut near = std::mem::take(&mut self.near);
         match way {
-            None => cells.around(cube, &mut near),
-            Some(way) => cells.ahead(cube, way, &mut near),
+            None => cells.around(spot, &mut near),
+            Some(way) => cells.ahead(spot, way, &mut near),
         }
-        let (crossing, way) = cells.crossing(cube, path);
+        let (crossing, way) = cells.crossing(spot.cube, path);
         (plan.crossing, plan.way) = (self.now + crossing, way);
-        let walls = cells.walls_near(cube).iter().map(|&wall| wall as usize);
+        let walls = cells.walls_near(spot).iter().map(|&wall| wall as usize);
         // pairs first where that is quick: what they are to meet soon spares most walls the search for edges
         let early = if D::SOLVES { self.pairs(seat, path, &mut near, plan) } else { 0 };
         let mut count = early + self.walls(model, seat, path, walls, plan);

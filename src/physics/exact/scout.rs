@@ -51,7 +51,7 @@ impl<D: Detector> Exact<D> {
         let records = &flight.records[..];
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
         if let Some(record) = due(PLACES) {
-            cells.fetch_around(record.cube, *lanes);
+            cells.fetch_around(record.spot, *lanes);
             if record.plan.kind == Kind::Pair {
                 let partner = &records[record.plan.other as usize];
                 lanes.fetch(&partner.line);
@@ -59,16 +59,16 @@ impl<D: Detector> Exact<D> {
                 self.queue.fetch(record.plan.other as usize);
             }
         }
-        let mut lines = |cube| {
-            cells.around(cube, near);
+        let mut lines = |spot| {
+            cells.around(spot, near);
             near.seats().iter().for_each(|&seat| lanes.fetch(&records[seat as usize].line));
         };
         if let Some(record) = due(LINES) {
-            lines(record.cube);
+            lines(record.spot);
             flight.fetch_seat(record.sphere as usize, *lanes);
             if record.plan.kind == Kind::Pair {
                 let partner = &records[record.plan.other as usize];
-                cells.fetch_around(partner.cube, *lanes);
+                cells.fetch_around(partner.spot, *lanes);
                 flight.fetch_seat(partner.sphere as usize, *lanes);
             }
         }
@@ -76,7 +76,7 @@ impl<D: Detector> Exact<D> {
             && record.plan.kind == Kind::Pair
             && record.plan.contact <= record.plan.crossing
         {
-            lines(records[record.plan.other as usize].cube);
+            lines(records[record.plan.other as usize].spot);
         }
     }
 
