@@ -219,14 +219,19 @@ impl Cells {
         let (one, two) = (self.strides[(axis + 1) % 3], self.strides[(axis + 2) % 3]);
         let front = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
         let first = front - (one + two);
-        self.gather([0, one, 2 * one].map(|one| [0, two, 2 * two].map(|two| first + one + two)).as_flattened(), near, 1);
+        self.gather(
+            [0, one, 2 * one].map(|one| [0, two, 2 * two].map(|two| first + one + two)).as_flattened(),
+            near,
+            1,
+        );
     }
 
     /// The same at the border of the table.
     #[cold]
     #[inline(never)]
     fn around_border(&self, [x, y, z]: Cube, near: &mut Near) {
-        let places = [-1, 0, 1].map(|dz| [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| self.place([x + dx, y + dy, z + dz]))));
+        let places =
+            [-1, 0, 1].map(|dz| [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| self.place([x + dx, y + dy, z + dz]))));
         self.gather(places.as_flattened().as_flattened(), near, 1);
     }
 

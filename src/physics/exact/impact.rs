@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use super::bounce::along;
+use super::bounce::{along, pair_push};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
 use crate::physics::detector::Detector;
@@ -17,7 +17,7 @@ use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
 /// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
-const COLLAPSE: u32 = 1000;
+pub(super) const COLLAPSE: u32 = 1000;
 
 /// Impacts by then of another contact that belongs to the same collapse, and rests with it: the limit of the chain is
 /// that none of them approaches any longer.
@@ -53,7 +53,7 @@ const CLOCK: f64 = 1e-3;
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Instant {
-    events: u64,
+    pub(super) events: u64,
     impacts: BTreeMap<Key, u32>,
     /// Whether a chain of impacts has collapsed.
     collapsed: bool,
@@ -91,7 +91,7 @@ pub(super) struct Meeting {
     pub(super) normal: DVec3,
     /// Gap, m, and what it is measured by: r, or r₁ + r₂.
     pub(super) gap: f64,
-    reach: f64,
+    pub(super) reach: f64,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(super) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
@@ -124,6 +124,14 @@ impl Meeting {
             class,
         }
     }
+}
+
+/// Tells the log of an impact.
+#[inline]
+pub(super) fn note(log: &mut Log, row: Contact) {
+    log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
+    log.contacts.push(row);
+    log.event(row);
 }
 
 impl<D: Detector> Exact<D> {
@@ -171,12 +179,13 @@ impl<D: Detector> Exact<D> {
             return Ok(());
         }
         let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
-        let key = self.key(seat, &plan);
-        if stale || self.rests.holds(key) {
+        if stale || !self.rests.is_empty() && self.rests.holds(self.key(seat, &plan)) {
             self.predict_at(model, seat);
             return Ok(());
         }
-        self.meet(model, log, key)?;
+        if !self.strike(model, log, seat, &plan)? {
+            self.meet(model, log, self.key(seat, &plan))?;
+        }
         // whatever became of the contact, this plan is used up
         if self.flight.records[seat].plan == plan {
             self.predict_at(model, seat);
@@ -347,10 +356,9 @@ impl<D: Detector> Exact<D> {
             Kind::Pair => {
                 let (one, two) = (*self.flight.line(a), *self.flight.line(b));
                 let (arm, w) = (one.x - two.x, one.v - two.v);
-                // along the arm by its actual length: a unit normal's rounding would let the energy creep upwards
                 let (share_a, share_b) = (self.flight.inverse_mass(a), self.flight.inverse_mass(b));
                 let share = share_a + share_b;
-                let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
+                let push = pair_push(arm, w, share, model.law.restitution);
                 self.push(a, push * share_a);
                 self.push(b, push * -share_b);
                 change / share
@@ -358,9 +366,7 @@ impl<D: Detector> Exact<D> {
         };
         self.part(model, meeting.key, 0.0);
         let row = meeting.row(self.now, Class::Collide, impulse, target);
-        log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
-        log.contacts.push(row);
-        log.event(row);
+        note(log, row);
         self.follow_up(model, log, meeting.key)?;
         if target == 0.0 && meeting.a_n < 0.0 {
             // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
@@ -419,8 +425,14 @@ impl<D: Detector> Exact<D> {
 
     /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
-        let line = self.flight.line(i);
+        self.finite_at(self.flight.seat(i))
+    }
+
+    /// The same for the sphere at a seat.
+    #[inline]
+    pub(super) fn finite_at(&self, seat: usize) -> Result<(), Stall> {
+        let line = &self.flight.records[seat].line;
         let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
-        runaway(i, self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
+        runaway(self.flight.sphere(seat), self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

@@ -181,7 +181,8 @@ mod wide {
             let [low, high] = halves(self, times);
             let place = |first: f64| self.avx._mm256_set_pd(first + 3.0, first + 2.0, first + 1.0, first);
             let here = |first: f64| self.avx._mm256_cmp_pd::<EQUAL>(k, place(first));
-            let both = [self.avx._mm256_blendv_pd(low, time, here(0.0)), self.avx._mm256_blendv_pd(high, time, here(4.0))];
+            let both =
+                [self.avx._mm256_blendv_pd(low, time, here(0.0)), self.avx._mm256_blendv_pd(high, time, here(4.0))];
             times.0 = pulp::cast(both);
             judge(self, both)
         }

@@ -21,6 +21,7 @@ mod replay;
 mod rest;
 mod roots;
 mod scout;
+mod strike;
 
 use std::borrow::Cow;
 
@@ -34,6 +35,7 @@ use flight::Flight;
 use impact::{Chatter, Instant};
 use islands::Rests;
 use lanes::Lanes;
+use prediction::Sort;
 use queue::Queue;
 use replay::{Origin, Replay};
 pub(super) use roots::Roots;
@@ -242,8 +244,8 @@ impl<D: Detector> Exact<D> {
     /// One event, or the end of the frame.
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
         let (time, seat) = self.next.take().unwrap_or_else(|| self.first());
-        let rank = if time < f64::INFINITY { self.rank(time, seat) } else { (3, 0, 0) };
-        if self.rests.is_dirty() && (time > self.now || rank.0 > 1) {
+        let next = self.sort(time, seat);
+        if self.rests.is_dirty() && (time > self.now || next != Sort::Contact) {
             self.settle(model, log)?;
             return Ok(Turn::Event);
         }
@@ -258,10 +260,10 @@ impl<D: Detector> Exact<D> {
         }
         self.advance_clock(time, model.len())?;
         self.scout();
-        match rank.0 {
-            0 | 1 => self.contact(model, log, seat)?,
-            2 => self.end_parabola(model, rank.1),
-            _ => self.cross(model, seat),
+        match next {
+            Sort::Contact => self.contact(model, log, seat)?,
+            Sort::End => self.end_parabola(model, self.flight.sphere(seat)),
+            Sort::Crossing => self.cross(model, seat),
         }
         Ok(Turn::Event)
     }

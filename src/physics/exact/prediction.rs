@@ -46,6 +46,15 @@ impl Plan {
 /// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
 pub(super) type Rank = (u8, usize, usize);
 
+/// What comes next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sort {
+    Contact,
+    /// An island's parabolas end.
+    End,
+    Crossing,
+}
+
 impl<D: Detector> Exact<D> {
     /// Predicts sphere `i` afresh from the present on.
     pub(super) fn predict(&mut self, model: &Model, i: usize) {
@@ -115,14 +124,28 @@ impl<D: Detector> Exact<D> {
 
     /// What the entry of a seat at `time` stands for.
     #[inline]
-    pub(super) fn rank(&self, time: f64, seat: usize) -> Rank {
+    pub(super) fn sort(&self, time: f64, seat: usize) -> Sort {
         let record = &self.flight.records[seat];
-        let i = record.sphere as usize;
-        if record.plan.contact == time {
-            let (kind, a, b) = self.key(seat, &record.plan);
-            return (if kind == Kind::Wall { 0 } else { 1 }, a, b);
+        if record.plan.contact == time && time < f64::INFINITY {
+            Sort::Contact
+        } else if !self.rests.is_empty() && self.rests.end_led_by(record.sphere as usize) == time {
+            Sort::End
+        } else {
+            Sort::Crossing
         }
-        if self.rests.end_led_by(i) == time { (2, i, 0) } else { (3, i, 0) }
+    }
+
+    /// Its place in the order of events.
+    pub(super) fn rank(&self, time: f64, seat: usize) -> Rank {
+        let (record, i) = (&self.flight.records[seat], self.flight.sphere(seat));
+        match self.sort(time, seat) {
+            Sort::Contact => {
+                let (kind, a, b) = self.key(seat, &record.plan);
+                (if kind == Kind::Wall { 0 } else { 1 }, a, b)
+            }
+            Sort::End => (2, i, 0),
+            Sort::Crossing => (3, i, 0),
+        }
     }
 
     /// Which contact a plan for a seat means.
