@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::lanes::{Four, Lanes, MOST};
+use super::lanes::{FOURS, Four, Lanes};
 use crate::geometry::Bounds;
 use crate::physics::State;
 use crate::physics::contact_time::{Path, quadratic_fall};
@@ -106,18 +106,18 @@ pub(super) struct Cells {
 }
 
 /// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Near {
     seats: Vec<u32>,
     count: usize,
     /// Room to look at them four by four.
-    pub(super) fours: Vec<Four>,
+    pub(super) fours: Box<[Four; FOURS]>,
 }
 
 impl Near {
     /// Nobody.
     pub(super) fn nobody() -> Near {
-        Near { seats: vec![0; ROOM], count: 0, fours: vec![Four::default(); MOST / 4] }
+        Near { seats: vec![0; ROOM], count: 0, fours: Box::new([Four::NEVER; FOURS]) }
     }
 
     /// Who is near.
@@ -128,7 +128,7 @@ impl Near {
 
     /// The same made up to fours by `seat`, and the room to look at them.
     #[inline]
-    pub(super) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four]) {
+    pub(super) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four; FOURS]) {
         self.seats[self.count..self.count + 4].fill(seat as u32);
         (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
     }

@@ -25,6 +25,27 @@ pub(super) struct Four {
     pub(super) discriminant: [f64; 4],
 }
 
+/// Room for what is found out in one call, and for a pair that never meets.
+pub(super) const FOURS: usize = MOST / 4 + 1;
+
+impl Four {
+    /// Never.
+    pub(super) const NEVER: Four = Four { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
+}
+
+/// The earliest of some pairs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Earliest {
+    /// When they meet, s; infinite if none does before the other meets somebody.
+    pub(super) time: f64,
+    /// The other's seat.
+    pub(super) with: u32,
+    /// A bit for each pair that meets.
+    pub(super) meet: u64,
+    /// Whether one of them overlaps, or another meets at the same time: they are to be looked at one by one.
+    pub(super) doubtful: bool,
+}
+
 /// Who looks: a sphere's path and radius at the present, s, with the acceleration that all share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Eye<'a> {
@@ -49,10 +70,18 @@ impl Lanes {
         }
     }
 
-    /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most; a bit for each
-    /// pair that meets.
+    /// As a processor that cannot.
+    #[cfg(test)]
+    fn plain() -> Lanes {
+        Lanes {
+            #[cfg(target_arch = "x86_64")]
+            wide: None,
+        }
+    }
+
+    /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most.
     #[inline]
-    pub(super) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 {
+    pub(super) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> Earliest {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             return match eye.path.a == DVec3::ZERO {
@@ -60,7 +89,8 @@ impl Lanes {
                 false => wide.vectorize(wide::Look::<true> { wide, eye, records, seats, fours }),
             };
         }
-        look(eye, records, seats, fours)
+        let meet = look(eye, records, seats, fours);
+        earliest(meet, records, seats, fours, |four| times(eye.now, four))
     }
 
     /// Asks for what will be read soon.
@@ -120,7 +150,7 @@ impl Judge for Plain {
     }
 }
 
-fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 {
+fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> u64 {
     let mut meet = 0;
     for (k, &seat) in seats.iter().enumerate() {
         let line = &records[seat as usize].line;
@@ -137,6 +167,56 @@ fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 
     meet
 }
 
+/// When four pairs that meet do, s.
+fn times(now: f64, four: &Four) -> [f64; 4] {
+    [0, 1, 2, 3].map(|k| now + four.c[k] / (four.discriminant[k].sqrt() - four.b[k]))
+}
+
+/// The earliest of the pairs with a bit in `meet`, four at a time: few meet at all, and how many cannot be predicted.
+#[inline(always)]
+fn earliest(
+    meet: u64,
+    records: &[Record],
+    seats: &[u32],
+    fours: &[Four; FOURS],
+    times: impl Fn(&Four) -> [f64; 4],
+) -> Earliest {
+    let mut first = Earliest { time: f64::INFINITY, with: seats[0], meet, doubtful: false };
+    let mut left = meet;
+    loop {
+        // 64 when none is left, which stands for the pair that never meets
+        let hits = [0; 4].map(|_| {
+            let hit = left.trailing_zeros() as usize;
+            left &= left.wrapping_sub(1);
+            hit
+        });
+        let four = Four {
+            b: hits.map(|k| fours[k / 4].b[k % 4]),
+            c: hits.map(|k| fours[k / 4].c[k % 4]),
+            discriminant: hits.map(|k| fours[k / 4].discriminant[k % 4]),
+        };
+        let others = hits.map(|k| seats[k % MOST]);
+        let found = times(&four);
+        // what the other meets before makes it look around anew, and find this one then
+        let due = [0, 1, 2, 3].map(|k| {
+            let theirs = records[others[k] as usize].plan.contact;
+            if found[k] <= theirs { found[k] } else { f64::INFINITY }
+        });
+        let smaller = |a: f64, b: f64| if b < a { b } else { a };
+        let least = smaller(smaller(due[0], due[1]), smaller(due[2], due[3]));
+        let equal: u32 = (0..4).map(|k| u32::from(due[k] <= least) << k).sum();
+        let tied = (equal & equal.wrapping_sub(1) != 0 || least == first.time) && least < f64::INFINITY;
+        let overlap = smaller(smaller(four.c[0], four.c[1]), smaller(four.c[2], four.c[3])) <= 0.0;
+        first.doubtful |= tied || overlap;
+        if least < first.time {
+            (first.time, first.with) = (least, others[equal.trailing_zeros() as usize % 4]);
+        }
+        if left == 0 {
+            return first;
+        }
+    }
+}
+
 #[cfg(target_arch = "x86_64")]
 mod wide {
     use std::arch::x86_64::__m256d;
@@ -151,7 +231,7 @@ mod wide {
         pub(super) eye: Eye<'a>,
         pub(super) records: &'a [Record],
         pub(super) seats: &'a [u32],
-        pub(super) fours: &'a mut [Four],
+        pub(super) fours: &'a mut [Four; FOURS],
     }
 
     pub(super) struct Run<J> {
@@ -210,10 +290,10 @@ mod wide {
     }
 
     impl<const BENT: bool> NullaryFnOnce for Look<'_, BENT> {
-        type Output = u64;
+        type Output = Earliest;
 
         #[inline(always)]
-        fn call(self) -> u64 {
+        fn call(self) -> Earliest {
             let Look { wide, eye, records, seats, fours } = self;
             let avx = wide.avx;
             let three = |p: DVec3| avx._mm256_set_pd(0.0, p.z, p.y, p.x);
@@ -221,7 +301,7 @@ mod wide {
             let (r, zero, half) = (avx._mm256_set1_pd(eye.r), avx._mm256_set1_pd(0.0), avx._mm256_set1_pd(0.5));
             let now = avx._mm256_set1_pd(eye.now);
             let mut meet = 0;
-            for (k, (seats, four)) in seats.chunks_exact(4).zip(fours).enumerate() {
+            for (k, (seats, four)) in seats.chunks_exact(4).zip(&mut fours[..]).enumerate() {
                 let lines = [0, 1, 2, 3].map(|lane| &records[seats[lane] as usize].line);
                 // x·v, x·x, v·v, not yet summed, of each of the four
                 let products = lines.map(|line| {
@@ -246,7 +326,11 @@ mod wide {
                 let bits = avx._mm256_movemask_pd(avx._mm256_and_pd(real, near));
                 meet |= (bits as u64) << (4 * k);
             }
-            meet
+            earliest(meet, records, seats, fours, |four| {
+                let [b, c, discriminant] = [four.b, four.c, four.discriminant].map(pulp::cast::<[f64; 4], __m256d>);
+                let root = avx._mm256_sqrt_pd(discriminant);
+                pulp::cast(avx._mm256_add_pd(now, avx._mm256_div_pd(c, avx._mm256_sub_pd(root, b))))
+            })
         }
     }
 
@@ -299,9 +383,9 @@ mod tests {
             let path = Path { x: point(), v: point(), a };
             let eye = Eye { path: &path, r: 0.5, now: 1.5 };
             let seats: Vec<u32> = (0..MOST as u32).rev().collect();
-            let (mut wide, mut plain) = ([Four::default(); MOST / 4], [Four::default(); MOST / 4]);
+            let (mut wide, mut plain) = ([Four::NEVER; FOURS], [Four::NEVER; FOURS]);
             let found = Lanes::new().look(eye, &records, &seats, &mut wide);
-            assert_eq!(found, look(eye, &records, &seats, &mut plain));
+            assert_eq!(found, Lanes::plain().look(eye, &records, &seats, &mut plain));
             assert_eq!(wide, plain);
         }
     }

@@ -70,7 +70,7 @@ pub(super) struct Exact<D> {
     next: Option<(f64, usize)>,
     cells: Option<Box<Cells>>,
     /// Lent to whoever looks around.
-    near: Near,
+    near: Option<Box<Near>>,
     /// Crossings since the spheres were seated.
     crossings: usize,
     scout: Scout,
@@ -118,7 +118,7 @@ impl<D: Detector> Engine for Exact<D> {
             queue: Queue::new(count),
             next: None,
             cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
-            near: Near::nobody(),
+            near: Some(Box::new(Near::nobody())),
             crossings: 0,
             scout: Scout::default(),
             lanes: Lanes::new(),

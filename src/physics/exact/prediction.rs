@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Exact;
 use super::cells::{Near, Way};
-use super::lanes::{Eye, MOST};
+use super::lanes::{Eye, Four, MOST};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{Path, straight_pair};
 use crate::physics::detector::{Detector, Due, Span};
@@ -95,7 +95,7 @@ impl<D: Detector> Exact<D> {
     fn meet_near(&mut self, model: &Model, seat: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
         let Some(cells) = &self.cells else { return 0 };
         let spot = self.flight.records[seat].spot;
-        let mut near = std::mem::take(&mut self.near);
+        let Some(mut near) = self.near.take() else { return 0 };
         match way {
             None => cells.around(spot, &mut near),
             Some(way) => cells.ahead(spot, way, &mut near),
@@ -109,7 +109,7 @@ impl<D: Detector> Exact<D> {
         if !D::SOLVES {
             count += self.pairs(seat, path, &mut near, plan);
         }
-        self.near = near;
+        self.near = Some(near);
         count
     }
 
@@ -217,46 +217,39 @@ impl<D: Detector> Exact<D> {
         near.seats().len() as u64
     }
 
-    /// Looks at pairs whose relative motion is straight. One in ten meets at all; among those the earliest is chosen
-    /// without asking, since the answers cannot be predicted.
+    /// Looks at pairs whose relative motion is straight.
     #[inline(always)]
     fn alike(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) {
         let records = &self.flight.records[..];
         let eye = Eye { path, r: records[seat].line.r, now: self.now };
         let (seats, fours) = near.padded(seat);
         for seats in seats.chunks(MOST) {
-            let mut meet = self.lanes.look(eye, records, seats, fours);
-            let (mut first, mut with) = (f64::INFINITY, seat);
-            while meet != 0 {
-                let k = meet.trailing_zeros() as usize;
-                meet &= meet - 1;
-                let (four, lane, other) = (&fours[k / 4], k % 4, seats[k] as usize);
-                let (b, c) = (four.b[lane], four.c[lane]);
-                let time = self.now + c / (four.discriminant[lane].sqrt() - b);
-                // what the other meets before makes it look around anew, and find this one then
-                let time = if time <= records[other].plan.contact { time } else { f64::INFINITY };
-                if c <= 0.0 || time == first && time < f64::INFINITY || !self.rests.is_empty() {
-                    self.choose(seat, path, other, c, time, plan);
-                    continue;
-                }
-                with = if time < first { other } else { with };
-                first = if time < first { time } else { first };
-            }
-            if first < f64::INFINITY {
-                self.offer(seat, with, first, true, plan);
+            let first = self.lanes.look(eye, records, seats, fours);
+            if first.doubtful || !self.rests.is_empty() {
+                self.choose(seat, path, seats, fours, first.meet, plan);
+            } else if first.time < f64::INFINITY {
+                self.offer(seat, first.with as usize, first.time, true, plan);
             }
         }
     }
 
-    /// A pair that takes a closer look: it overlaps by rounding, it may rest, or another meets at the same time.
+    /// Looks at the pairs with a bit in `meet` one by one: one overlaps by rounding, some may rest, or several meet at the
+    /// same time.
     #[cold]
     #[inline(never)]
-    fn choose(&self, seat: usize, path: &Path, other: usize, c: f64, time: f64, plan: &mut Plan) {
-        if c <= 0.0 {
-            // whether they approach is for the handler's own expression to say
-            self.pair(seat, path, other, plan);
-        } else if time < f64::INFINITY {
-            self.offer(seat, other, time, true, plan);
+    fn choose(&self, seat: usize, path: &Path, seats: &[u32], fours: &[Four], mut meet: u64, plan: &mut Plan) {
+        while meet != 0 {
+            let k = meet.trailing_zeros() as usize;
+            meet &= meet - 1;
+            let (four, lane, other) = (&fours[k / 4], k % 4, seats[k] as usize);
+            let (b, c) = (four.b[lane], four.c[lane]);
+            let time = self.now + c / (four.discriminant[lane].sqrt() - b);
+            if c <= 0.0 {
+                // whether they approach is for the handler's own expression to say
+                self.pair(seat, path, other, plan);
+            } else if time <= self.flight.records[other].plan.contact && time < f64::INFINITY {
+                self.offer(seat, other, time, true, plan);
+            }
         }
     }
 

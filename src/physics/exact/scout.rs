@@ -30,7 +30,7 @@ pub(super) struct Scout {
     at: usize,
     /// How far it should reach, s.
     span: f64,
-    near: Near,
+    near: Option<Box<Near>>,
 }
 
 impl<D: Detector> Exact<D> {
@@ -49,6 +49,7 @@ impl<D: Detector> Exact<D> {
         }
         let Exact { cells: Some(cells), flight, scout: Scout { list, at, near, .. }, lanes, .. } = self else { return };
         let records = &flight.records[..];
+        let near = near.get_or_insert_with(|| Box::new(Near::nobody()));
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
         if let Some(record) = due(PLACES) {
             cells.fetch_around(record.spot, *lanes);
@@ -81,10 +82,7 @@ impl<D: Detector> Exact<D> {
     }
 
     fn list_events(&mut self) {
-        let Exact { scout: Scout { list, at, span, near }, .. } = self;
-        if near.seats().is_empty() {
-            *near = Near::nobody();
-        }
+        let Exact { scout: Scout { list, at, span, .. }, .. } = self;
         list.clear();
         *at = 0;
         self.queue.until(self.now + *span, 4 * LISTED, list);
