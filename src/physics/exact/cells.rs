@@ -491,7 +491,7 @@ fn edge(reach: f64, size: DVec3, count: usize) -> f64 {
 
 /// The table's size along each axis: enough for the spheres' box and a border, no more than some cubes a sphere.
 fn table(cubes: DVec3, count: usize) -> [i32; 3] {
-    let limit = (4 * count).max(64) as f64;
+    let limit = (4 * count).max(8192) as f64;
     // a float beyond i32 becomes its end
     let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 4);
     while size.iter().copied().map(f64::from).product::<f64>() > limit {

@@ -224,6 +224,7 @@ mod wide {
     use pulp::NullaryFnOnce;
 
     use super::*;
+    use crate::physics::exact::flight::Line;
 
     /// Looks at pairs of spheres that an acceleration bends or not.
     pub(super) struct Look<'a, const BENT: bool> {
@@ -296,30 +297,33 @@ mod wide {
         fn call(self) -> Earliest {
             let Look { wide, eye, records, seats, fours } = self;
             let avx = wide.avx;
-            let three = |p: DVec3| avx._mm256_set_pd(0.0, p.z, p.y, p.x);
-            let (x, v, a) = (three(eye.path.x), three(eye.path.v), three(eye.path.a));
-            let (r, zero, half) = (avx._mm256_set1_pd(eye.r), avx._mm256_set1_pd(0.0), avx._mm256_set1_pd(0.5));
-            let now = avx._mm256_set1_pd(eye.now);
+            let all = |u: f64| avx._mm256_set1_pd(u);
+            let [x, v, a] = [eye.path.x, eye.path.v, eye.path.a].map(|u| u.to_array().map(all));
+            let (r, zero, half, now) = (all(eye.r), all(0.0), all(0.5), all(eye.now));
             let mut meet = 0;
             for (k, (seats, four)) in seats.chunks_exact(4).zip(&mut fours[..]).enumerate() {
                 let lines = [0, 1, 2, 3].map(|lane| &records[seats[lane] as usize].line);
-                // x·v, x·x, v·v, not yet summed, of each of the four
-                let products = lines.map(|line| {
-                    let dt = avx._mm256_sub_pd(now, avx._mm256_set1_pd(line.t));
-                    let lx = avx._mm256_set_pd(line.t, line.x.z, line.x.y, line.x.x);
-                    let lv = avx._mm256_set_pd(line.r, line.v.z, line.v.y, line.v.x);
-                    let faster = |by| if BENT { avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, by)) } else { lv };
+                let [lx, ly] = beside(wide, lines, |line| [line.x.x, line.x.y]);
+                let [lz, t] = beside(wide, lines, |line| [line.x.z, line.t]);
+                let [vx, vy] = beside(wide, lines, |line| [line.v.x, line.v.y]);
+                let [vz, radii] = beside(wide, lines, |line| [line.v.z, line.r]);
+                let dt = avx._mm256_sub_pd(now, t);
+                let apart = |axis: usize, lx: __m256d, lv: __m256d| {
+                    let faster = |by| if BENT { avx._mm256_add_pd(lv, avx._mm256_mul_pd(a[axis], by)) } else { lv };
                     let way = avx._mm256_mul_pd(faster(avx._mm256_mul_pd(half, dt)), dt);
-                    let x = avx._mm256_sub_pd(x, avx._mm256_add_pd(lx, way));
-                    let v = avx._mm256_sub_pd(v, faster(dt));
-                    [avx._mm256_mul_pd(x, v), avx._mm256_mul_pd(x, x), avx._mm256_mul_pd(v, v)]
-                });
-                let [b, xx, vv] = [0, 1, 2].map(|which| sums(wide, products.map(|all| all[which])));
-                let radii = avx._mm256_set_pd(lines[3].r, lines[2].r, lines[1].r, lines[0].r);
+                    let there = avx._mm256_add_pd(lx, way);
+                    (avx._mm256_sub_pd(x[axis], there), avx._mm256_sub_pd(v[axis], faster(dt)))
+                };
+                let [(x, vx), (y, vy), (z, vz)] = [apart(0, lx, vx), apart(1, ly, vy), apart(2, lz, vz)];
+                let dot = |[ax, ay, az]: [__m256d; 3], [bx, by, bz]: [__m256d; 3]| {
+                    let xy = avx._mm256_add_pd(avx._mm256_mul_pd(ax, bx), avx._mm256_mul_pd(ay, by));
+                    avx._mm256_add_pd(xy, avx._mm256_mul_pd(az, bz))
+                };
+                let (x, v) = ([x, y, z], [vx, vy, vz]);
                 let reach = avx._mm256_add_pd(r, radii);
-                let b = avx._mm256_min_pd(b, zero);
-                let c = avx._mm256_sub_pd(xx, avx._mm256_mul_pd(reach, reach));
-                let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(vv, c));
+                let b = avx._mm256_min_pd(dot(x, v), zero);
+                let c = avx._mm256_sub_pd(dot(x, x), avx._mm256_mul_pd(reach, reach));
+                let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(dot(v, v), c));
                 *four = Four { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
                 let (real, near) =
                     (avx._mm256_cmp_pd::<GREATER>(discriminant, zero), avx._mm256_cmp_pd::<GREATER>(zero, b));
@@ -334,17 +338,15 @@ mod wide {
         }
     }
 
-    /// x + y + z of each of four, in this order.
+    /// Two numbers of each of four lines, by number.
     #[inline(always)]
-    fn sums(wide: V3, four: [__m256d; 4]) -> __m256d {
-        let [a, b, c, d] = four;
-        let avx = wide.avx;
-        let (even, evens) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpacklo_pd(c, d));
-        let (odd, odds) = (avx._mm256_unpackhi_pd(a, b), avx._mm256_unpackhi_pd(c, d));
-        let x = avx._mm256_permute2f128_pd::<0x20>(even, evens);
-        let y = avx._mm256_permute2f128_pd::<0x20>(odd, odds);
-        let z = avx._mm256_permute2f128_pd::<0x31>(even, evens);
-        avx._mm256_add_pd(avx._mm256_add_pd(x, y), z)
+    fn beside(wide: V3, [a, b, c, d]: [&Line; 4], of: impl Fn(&Line) -> [f64; 2]) -> [__m256d; 2] {
+        let two = |one: &Line, other: &Line| {
+            let ([x, y], [z, w]) = (of(one), of(other));
+            wide.avx._mm256_set_pd(w, z, y, x)
+        };
+        let (even, odd) = (two(a, c), two(b, d));
+        [wide.avx._mm256_unpacklo_pd(even, odd), wide.avx._mm256_unpackhi_pd(even, odd)]
     }
 }
 

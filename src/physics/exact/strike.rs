@@ -27,13 +27,15 @@ impl Pair {
     fn new(flight: &Flight, seat: usize, plan: &Plan, now: f64) -> Option<Pair> {
         let (a, other) = (flight.common()?, plan.other as usize);
         let seats = if flight.sphere(seat) < flight.sphere(other) { [seat, other] } else { [other, seat] };
-        let lines = seats.map(|seat| flight.records[seat].line.brought(a, now));
-        let [one, two] = [0, 1].map(|k| lines[k].path(a, now));
+        let [one, two] = [&flight.records[seats[0]], &flight.records[seats[1]]];
+        let lines = [one.line.brought(a, now), two.line.brought(a, now)];
+        let key = (Kind::Pair, one.sphere as usize, two.sphere as usize);
+        let [one, two] = [lines[0].path(a, now), lines[1].path(a, now)];
         let (x, reach) = (one.x - two.x, lines[0].r + lines[1].r);
         let distance = x.length();
         let (normal, gap) = (x / distance, distance - reach);
         let meeting = Meeting {
-            key: (Kind::Pair, flight.sphere(seats[0]), flight.sphere(seats[1])),
+            key,
             point: two.x + normal * (lines[1].r + 0.5 * gap),
             normal,
             gap,
@@ -84,7 +86,8 @@ impl<D: Detector> Exact<D> {
     #[inline(always)]
     fn exchange(&mut self, model: &Model, pair: &Pair) -> f64 {
         let (seats, [one, two]) = (pair.seats, pair.lines);
-        let [share_a, share_b] = seats.map(|seat| self.flight.records[seat].inverse_mass);
+        let [share_a, share_b] =
+            [self.flight.records[seats[0]].inverse_mass, self.flight.records[seats[1]].inverse_mass];
         let (arm, w, share) = (one.x - two.x, one.v - two.v, share_a + share_b);
         let push = pair_push(arm, w, share, model.law.restitution);
         let (one, two) = (Line { v: one.v + push * share_a, ..one }, Line { v: two.v + push * -share_b, ..two });
