@@ -404,9 +404,9 @@ impl Cells {
         self.next[at as usize] = after;
     }
 
-    /// The number of a cube's place. The cubes that the spheres begin in are off the border.
+    /// The number of a cube's place. The cubes that the spheres begin in and those around them are off the border.
     fn place(&self, cube: Cube) -> u32 {
-        let share = |axis: usize| (cube[axis] + 1).rem_euclid(self.size[axis]) as u32 * self.strides[axis];
+        let share = |axis: usize| (cube[axis] + 2).rem_euclid(self.size[axis]) as u32 * self.strides[axis];
         share(0) + share(1) + share(2)
     }
 
@@ -489,11 +489,11 @@ fn edge(reach: f64, size: DVec3, count: usize) -> f64 {
     edge.min(1.6 * reach)
 }
 
-/// The table's size along each axis: enough for the spheres' box and a border, no more than some cubes a sphere.
+/// The table's size along each axis: enough for the spheres' box, a cube more all around it and a border, no more than some cubes a sphere.
 fn table(cubes: DVec3, count: usize) -> [i32; 3] {
     let limit = (4 * count).max(8192) as f64;
     // a float beyond i32 becomes its end
-    let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 4);
+    let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 5);
     while size.iter().copied().map(f64::from).product::<f64>() > limit {
         let longest = (0..3).max_by_key(|&axis| size[axis]).unwrap_or(0);
         if size[longest] <= 4 {

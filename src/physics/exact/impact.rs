@@ -174,13 +174,10 @@ impl<D: Detector> Exact<D> {
     /// The contact that the sphere at a seat planned is due.
     pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
         let plan = self.flight.records[seat].plan;
-        if !plan.sure {
-            self.predict_at(model, seat);
-            return Ok(());
-        }
         let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
-        if stale || !self.rests.is_empty() && self.rests.holds(self.key(seat, &plan)) {
-            self.predict_at(model, seat);
+        let rests = !self.rests.is_empty() && self.rests.holds(self.key(seat, &plan));
+        if !plan.sure || stale || rests {
+            self.predict_first(model, seat);
             return Ok(());
         }
         if !self.strike(model, log, seat, &plan)? {

@@ -63,6 +63,18 @@ impl<D: Detector> Exact<D> {
 
     /// The same for the sphere at a seat.
     pub(super) fn predict_at(&mut self, model: &Model, seat: usize) {
+        self.foresee(model, seat);
+        self.schedule(seat);
+    }
+
+    /// The same where the event that is handled was entered for this seat, and everything else is predicted already.
+    pub(super) fn predict_first(&mut self, model: &Model, seat: usize) {
+        self.foresee(model, seat);
+        self.schedule_first(seat);
+    }
+
+    /// Makes the plan of the sphere at a seat.
+    fn foresee(&mut self, model: &Model, seat: usize) {
         let path = self.flight.path_from(seat, self.now);
         let mut plan = Plan::IDLE;
         self.evaluations += if self.cells.is_some() {
@@ -73,7 +85,6 @@ impl<D: Detector> Exact<D> {
                 + others.map(|other| self.pair(seat, &path, other, &mut plan)).sum::<u64>()
         };
         self.flight.records[seat].plan = plan;
-        self.schedule(seat);
     }
 
     /// The sphere at a seat crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
@@ -86,7 +97,7 @@ impl<D: Detector> Exact<D> {
         record.spot = cells.cross(seat, record.spot, plan.way, seats);
         self.evaluations += self.meet_near(model, seat, &path, Some(plan.way), &mut plan);
         self.flight.records[seat].plan = plan;
-        self.schedule(seat);
+        self.schedule_first(seat);
         self.count_crossing();
     }
 
@@ -114,12 +125,23 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Enters the earliest of a sphere's plan and its island's end into the queue.
-    #[inline]
     pub(super) fn schedule(&mut self, seat: usize) {
+        self.queue.set(seat, self.due(seat));
+        self.next = None;
+    }
+
+    /// The same where the event that is handled was entered for this seat, and everything else is entered already: then
+    /// it is known what comes next.
+    #[inline]
+    fn schedule_first(&mut self, seat: usize) {
+        self.next = self.queue.replace_first(seat, self.due(seat));
+    }
+
+    #[inline]
+    fn due(&self, seat: usize) -> f64 {
         let record = &self.flight.records[seat];
         let time = record.plan.contact.min(record.plan.crossing);
-        let led = if self.rests.is_empty() { f64::INFINITY } else { self.rests.end_led_by(record.sphere as usize) };
-        self.queue.set(seat, time.min(led));
+        if self.rests.is_empty() { time } else { time.min(self.rests.end_led_by(record.sphere as usize)) }
     }
 
     /// What the entry of a seat at `time` stands for.

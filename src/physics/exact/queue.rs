@@ -52,7 +52,16 @@ impl Queue {
     #[inline]
     pub(super) fn set(&mut self, seat: usize, time: f64) {
         let lanes = self.lanes;
-        lanes.run(Lift { queue: self, seat, time });
+        lanes.run(Lift::<false> { queue: self, seat, time });
+    }
+
+    /// The same for the seat of the first event, which has won all the way up: the earliest time then, and its seat if it
+    /// is the only one.
+    #[inline]
+    pub(super) fn replace_first(&mut self, seat: usize, time: f64) -> Option<(f64, usize)> {
+        let lanes = self.lanes;
+        let (time, winner) = lanes.run(Lift::<true> { queue: self, seat, time });
+        (winner != TIED).then_some((time, winner as usize))
     }
 
     /// The earliest time and its seat; among equal times the one that `before` puts first; seat 0 if nothing ever
@@ -113,40 +122,42 @@ impl Queue {
     }
 }
 
-/// An entry changes: the winners above it are found anew, up to the first that stays.
-struct Lift<'a> {
+/// An entry changes: the winners above it are found anew, all of them or up to the first that stays.
+struct Lift<'a, const ALL: bool> {
     queue: &'a mut Queue,
     seat: usize,
     /// The new time, s.
     time: f64,
 }
 
-impl Tournament for Lift<'_> {
-    type Output = ();
+impl<const ALL: bool> Tournament for Lift<'_, ALL> {
+    /// The earliest time and its seat, if all were found anew.
+    type Output = (f64, u32);
 
     #[inline(always)]
-    fn run(self, judge: impl Judge) {
+    fn run(self, judge: impl Judge) -> (f64, u32) {
         let Lift { queue: Queue { blocks, winners, starts, levels, .. }, seat, mut time } = self;
-        let leaves = starts[1];
-        let mut place = seat;
-        for level in 0..*levels {
+        let (leaves, mut place) = (starts[1], seat);
+        let mut level = 0;
+        loop {
             let block = starts[level] + place / FAN;
             let (least, equal) = judge.exchange(&mut blocks[block], place % FAN, time);
-            if level + 1 == *levels {
-                return;
-            }
-            place /= FAN;
-            let above = starts[level + 1] + place / FAN;
-            let winner = if equal & equal.wrapping_sub(1) != 0 {
-                TIED
-            } else if level == 0 {
-                (place * FAN) as u32 + equal.trailing_zeros()
+            let first = equal.trailing_zeros();
+            let entered = if level == 0 {
+                (place - place % FAN) as u32 + first
             } else {
-                winners[block - leaves][equal.trailing_zeros() as usize % FAN]
+                winners[block - leaves][first as usize % FAN]
             };
+            let winner = if equal & equal.wrapping_sub(1) != 0 { TIED } else { entered };
+            place /= FAN;
+            level += 1;
+            if level == *levels {
+                return (least, winner);
+            }
+            let above = starts[level] + place / FAN;
             let entry = &mut winners[above - leaves][place % FAN];
-            if *entry == winner && blocks[above].0[place % FAN] == least {
-                return;
+            if !ALL && (*entry == winner) & (blocks[above].0[place % FAN] == least) {
+                return (least, TIED);
             }
             (*entry, time) = (winner, least);
         }
@@ -190,7 +201,13 @@ mod tests {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let (i, time) = ((seed >> 33) as usize % count, ((seed >> 20) % 512) as f64);
             times[i] = time;
-            queue.set(i, time);
+            let first = queue.first(|a, b| a > b);
+            if first.1 == i {
+                let found = queue.replace_first(i, time);
+                assert!(found.is_none_or(|found| found == queue.first(|a, b| a > b)));
+            } else {
+                queue.set(i, time);
+            }
             // ties go to the larger index here, to see that the order is the caller's
             let expected = (0..count).rev().min_by(|&a, &b| times[a].total_cmp(&times[b])).expect("not empty");
             let found = queue.first(|a, b| a > b);

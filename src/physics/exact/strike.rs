@@ -26,7 +26,8 @@ impl Pair {
     #[inline(always)]
     fn new(flight: &Flight, seat: usize, plan: &Plan, now: f64) -> Option<Pair> {
         let (a, other) = (flight.common()?, plan.other as usize);
-        let seats = if flight.sphere(seat) < flight.sphere(other) { [seat, other] } else { [other, seat] };
+        let swap = usize::from(flight.sphere(seat) > flight.sphere(other));
+        let seats = [[seat, other][swap], [other, seat][swap]];
         let [one, two] = [&flight.records[seats[0]], &flight.records[seats[1]]];
         let lines = [one.line.brought(a, now), two.line.brought(a, now)];
         let key = (Kind::Pair, one.sphere as usize, two.sphere as usize);
@@ -68,9 +69,9 @@ impl<D: Detector> Exact<D> {
         for seat in pair.seats {
             self.finite_at(seat)?;
         }
-        for seat in pair.seats {
-            self.predict_at(model, seat);
-        }
+        // the due one last: then it is known what comes next
+        self.predict_at(model, plan.other as usize);
+        self.predict_first(model, seat);
         Ok(true)
     }
 
