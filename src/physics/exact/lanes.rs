@@ -297,30 +297,21 @@ mod wide {
         fn call(self) -> Earliest {
             let Look { wide, eye, records, seats, fours } = self;
             let avx = wide.avx;
-            let all = |u: f64| avx._mm256_set1_pd(u);
-            let [x, v, a] = [eye.path.x, eye.path.v, eye.path.a].map(|u| u.to_array().map(all));
-            let (r, zero, half, now) = (all(eye.r), all(0.0), all(0.5), all(eye.now));
+            // beside the velocities the radii: what is subtracted there is the reach, but for its sign
+            let rows = [row(wide, eye.path.x, 0.0), row(wide, eye.path.v, -eye.r), row(wide, eye.path.a, 0.0)];
+            let (now, zero) = (avx._mm256_set1_pd(eye.now), avx._mm256_set1_pd(0.0));
             let mut meet = 0;
             for (k, (seats, four)) in seats.chunks_exact(4).zip(&mut fours[..]).enumerate() {
-                let lines = [0, 1, 2, 3].map(|lane| &records[seats[lane] as usize].line);
-                let [lx, ly] = beside(wide, lines, |line| [line.x.x, line.x.y]);
-                let [lz, t] = beside(wide, lines, |line| [line.x.z, line.t]);
-                let [vx, vy] = beside(wide, lines, |line| [line.v.x, line.v.y]);
-                let [vz, radii] = beside(wide, lines, |line| [line.v.z, line.r]);
-                let dt = avx._mm256_sub_pd(now, t);
-                let apart = |axis: usize, lx: __m256d, lv: __m256d| {
-                    let faster = |by| if BENT { avx._mm256_add_pd(lv, avx._mm256_mul_pd(a[axis], by)) } else { lv };
-                    let way = avx._mm256_mul_pd(faster(avx._mm256_mul_pd(half, dt)), dt);
-                    let there = avx._mm256_add_pd(lx, way);
-                    (avx._mm256_sub_pd(x[axis], there), avx._mm256_sub_pd(v[axis], faster(dt)))
-                };
-                let [(x, vx), (y, vy), (z, vz)] = [apart(0, lx, vx), apart(1, ly, vy), apart(2, lz, vz)];
+                let [a, b, c, d] = [seats[0], seats[1], seats[2], seats[3]].map(|seat| &records[seat as usize].line);
+                let (one, two) = (apart::<BENT>(wide, rows, a, now), apart::<BENT>(wide, rows, b, now));
+                let (three, last) = (apart::<BENT>(wide, rows, c, now), apart::<BENT>(wide, rows, d, now));
+                let [x, y, z, _] = across(wide, [one.0, two.0, three.0, last.0]);
+                let [vx, vy, vz, reach] = across(wide, [one.1, two.1, three.1, last.1]);
                 let dot = |[ax, ay, az]: [__m256d; 3], [bx, by, bz]: [__m256d; 3]| {
                     let xy = avx._mm256_add_pd(avx._mm256_mul_pd(ax, bx), avx._mm256_mul_pd(ay, by));
                     avx._mm256_add_pd(xy, avx._mm256_mul_pd(az, bz))
                 };
                 let (x, v) = ([x, y, z], [vx, vy, vz]);
-                let reach = avx._mm256_add_pd(r, radii);
                 let b = avx._mm256_min_pd(dot(x, v), zero);
                 let c = avx._mm256_sub_pd(dot(x, x), avx._mm256_mul_pd(reach, reach));
                 let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(dot(v, v), c));
@@ -338,15 +329,39 @@ mod wide {
         }
     }
 
-    /// Two numbers of each of four lines, by number.
     #[inline(always)]
-    fn beside(wide: V3, [a, b, c, d]: [&Line; 4], of: impl Fn(&Line) -> [f64; 2]) -> [__m256d; 2] {
-        let two = |one: &Line, other: &Line| {
-            let ([x, y], [z, w]) = (of(one), of(other));
-            wide.avx._mm256_set_pd(w, z, y, x)
-        };
-        let (even, odd) = (two(a, c), two(b, d));
-        [wide.avx._mm256_unpacklo_pd(even, odd), wide.avx._mm256_unpackhi_pd(even, odd)]
+    fn row(wide: V3, p: DVec3, last: f64) -> __m256d {
+        wide.avx._mm256_set_pd(last, p.z, p.y, p.x)
+    }
+
+    /// Offset and relative velocity of a line from the eye's rows, at the present.
+    #[inline(always)]
+    fn apart<const BENT: bool>(wide: V3, [x, v, a]: [__m256d; 3], line: &Line, now: __m256d) -> (__m256d, __m256d) {
+        let avx = wide.avx;
+        let (lx, lv) = (row(wide, line.x, line.t), row(wide, line.v, line.r));
+        let dt = avx._mm256_sub_pd(now, avx._mm256_set1_pd(line.t));
+        let (mut mean, mut last) = (lv, lv);
+        if BENT {
+            let half = avx._mm256_mul_pd(avx._mm256_set1_pd(0.5), dt);
+            mean = avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, half));
+            last = avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, dt));
+        }
+        let there = avx._mm256_add_pd(lx, avx._mm256_mul_pd(mean, dt));
+        (avx._mm256_sub_pd(x, there), avx._mm256_sub_pd(v, last))
+    }
+
+    /// Rows as columns.
+    #[inline(always)]
+    fn across(wide: V3, [a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
+        let avx = wide.avx;
+        let [low, high] = [avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b)];
+        let [lows, highs] = [avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d)];
+        [
+            avx._mm256_permute2f128_pd::<0x20>(low, lows),
+            avx._mm256_permute2f128_pd::<0x20>(high, highs),
+            avx._mm256_permute2f128_pd::<0x31>(low, lows),
+            avx._mm256_permute2f128_pd::<0x31>(high, highs),
+        ]
     }
 }
 

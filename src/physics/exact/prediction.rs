@@ -245,7 +245,10 @@ impl<D: Detector> Exact<D> {
         let records = &self.flight.records[..];
         let eye = Eye { path, r: records[seat].line.r, now: self.now };
         let (seats, fours) = near.padded(seat);
-        for seats in seats.chunks(MOST) {
+        let mut rest = seats;
+        while !rest.is_empty() {
+            let (seats, later) = rest.split_at(rest.len().min(MOST));
+            rest = later;
             let first = self.lanes.look(eye, records, seats, fours);
             if first.doubtful || !self.rests.is_empty() {
                 self.choose(seat, path, seats, fours, first.meet, plan);
