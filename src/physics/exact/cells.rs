@@ -10,7 +10,8 @@
 
 use glam::DVec3;
 
-use super::lanes::{FOURS, Four, Lanes};
+use super::lanes::Lanes;
+use super::near::{MOST_NEAR, Near, ROOM};
 use crate::geometry::Bounds;
 use crate::physics::State;
 use crate::physics::contact_time::{Path, quadratic_fall};
@@ -24,12 +25,6 @@ const SLOTS: usize = 3;
 
 /// Copied at once from a place: its slots and its mark.
 const PLACE: usize = SLOTS + 1;
-
-/// What the 27 places around a sphere hold without spilling is fewer than this.
-const MOST_NEAR: usize = 128;
-
-/// Room for it, one more place and padding to four.
-const ROOM: usize = MOST_NEAR + 2 * PLACE;
 
 /// In a mark: where the number of spheres in slots begins.
 const COUNT: u32 = 30;
@@ -103,43 +98,6 @@ pub(super) struct Cells {
     /// Walls near the cubes of place p: `walls[starts[p]..starts[p + 1]]`, ascending.
     starts: Vec<u32>,
     walls: Vec<u32>,
-}
-
-/// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
-#[derive(Debug, Clone)]
-pub(super) struct Near {
-    seats: Vec<u32>,
-    count: usize,
-    /// Room to look at them four by four.
-    pub(super) fours: Box<[Four; FOURS]>,
-}
-
-impl Near {
-    /// Nobody.
-    pub(super) fn nobody() -> Near {
-        Near { seats: vec![0; ROOM], count: 0, fours: Box::new([Four::NEVER; FOURS]) }
-    }
-
-    /// Who is near.
-    #[inline]
-    pub(super) fn seats(&self) -> &[u32] {
-        &self.seats[..self.count]
-    }
-
-    /// The same made up to fours by `seat`, and the room to look at them.
-    #[inline]
-    pub(super) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four; FOURS]) {
-        self.seats[self.count..self.count + 4].fill(seat as u32);
-        (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
-    }
-
-    fn push(&mut self, seat: u32) {
-        self.seats[self.count] = seat;
-        self.count += 1;
-        if self.count + 5 > self.seats.len() {
-            self.seats.resize(2 * self.seats.len(), 0);
-        }
-    }
 }
 
 impl Cells {

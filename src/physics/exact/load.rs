@@ -1,8 +1,8 @@
 //! Contacts that exist at load: here alone does a gap of rounding's size count as touching.
 
 use super::Exact;
-use super::cells::Near;
 use super::flight::Record;
+use super::near::Near;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::touch;
 use crate::physics::detector::Detector;

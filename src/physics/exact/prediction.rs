@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::Exact;
-use super::cells::{Near, Way};
+use super::cells::Way;
 use super::lanes::{Eye, Four, MOST};
+use super::near::Near;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{Path, straight_pair};
 use crate::physics::detector::{Detector, Due, Span};

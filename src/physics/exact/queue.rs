@@ -75,20 +75,29 @@ impl Queue {
         }
     }
 
-    /// Lists the events until `time` (s), no more than `most` or little more.
-    pub(super) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>) {
-        self.collect(self.levels - 1, 0, time, most, list);
-    }
-
-    fn collect(&self, level: usize, block: usize, until: f64, most: usize, list: &mut Vec<(f64, u32)>) {
-        for (k, &time) in self.blocks[self.starts[level] + block].0.iter().enumerate() {
-            if time <= until && list.len() < most {
-                let place = block * FAN + k;
-                match level {
-                    0 => list.push((time, place as u32)),
-                    _ => self.collect(level - 1, place, until, most, list),
+    /// Lists the events until `time` (s), no more than `most` or little more, level by level: what the next one will read
+    /// is asked for meanwhile. `blocks` is lent.
+    pub(super) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>, blocks: &mut [Vec<u32>; 2]) {
+        let [above, below] = blocks;
+        above.clear();
+        above.push(0);
+        for level in (0..self.levels).rev() {
+            below.clear();
+            for &block in above.iter().take(most) {
+                for (k, &entry) in self.blocks[self.starts[level] + block as usize].0.iter().enumerate() {
+                    if entry <= time {
+                        let place = block * FAN as u32 + k as u32;
+                        match level {
+                            0 => list.push((entry, place)),
+                            _ => {
+                                self.lanes.fetch(&self.blocks[self.starts[level - 1] + place as usize]);
+                                below.push(place);
+                            }
+                        }
+                    }
                 }
             }
+            std::mem::swap(above, below);
         }
     }
 

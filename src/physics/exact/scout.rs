@@ -6,7 +6,7 @@
 //! decides when memory is read, and nothing else.
 
 use super::Exact;
-use super::cells::Near;
+use super::near::Near;
 use crate::physics::Kind;
 use crate::physics::detector::Detector;
 
@@ -31,6 +31,8 @@ pub(super) struct Scout {
     /// How far it should reach, s.
     span: f64,
     near: Option<Box<Near>>,
+    /// Lent to whoever looks into the queue.
+    blocks: [Vec<u32>; 2],
 }
 
 impl<D: Detector> Exact<D> {
@@ -82,10 +84,10 @@ impl<D: Detector> Exact<D> {
     }
 
     fn list_events(&mut self) {
-        let Exact { scout: Scout { list, at, span, .. }, .. } = self;
+        let Exact { scout: Scout { list, at, span, blocks, .. }, .. } = self;
         list.clear();
         *at = 0;
-        self.queue.until(self.now + *span, 4 * LISTED, list);
+        self.queue.until(self.now + *span, 4 * LISTED, list, blocks);
         list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         if list.len() < LISTED {
             *span = 1.25 * *span + f64::EPSILON * self.now.abs() + f64::MIN_POSITIVE;
