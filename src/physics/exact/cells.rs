@@ -302,14 +302,20 @@ impl Cells {
     /// The sphere at a seat goes `way` from its cube: by the index, since a recomputed position may disagree with the
     /// event. Returns where it is then.
     pub(super) fn cross(&mut self, seat: usize, spot: Spot, way: Way, seats: usize) -> Spot {
-        let border = self.places[spot.place as usize].0[SLOTS] & BORDER != 0;
+        let next = self.beyond(spot, way);
         self.unlink(seat as u32, spot.place);
+        self.link(seat, next.place, seats);
+        next
+    }
+
+    /// The cube that a sphere comes to when it goes `way`.
+    #[inline]
+    pub(super) fn beyond(&self, spot: Spot, way: Way) -> Spot {
         let (axis, mut cube) = (way.axis as usize % 3, spot.cube);
         cube[axis] += i32::from(way.sign);
+        let border = self.places[spot.place as usize].0[SLOTS] & BORDER != 0;
         let beside = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
-        let place = if border { self.place(cube) } else { beside };
-        self.link(seat, place, seats);
-        Spot { cube, place }
+        Spot { cube, place: if border { self.place(cube) } else { beside } }
     }
 
     /// Enters a seat, one of so many.

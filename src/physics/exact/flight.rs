@@ -10,7 +10,6 @@
 use glam::DVec3;
 
 use super::cells::Spot;
-use super::lanes::Lanes;
 use super::prediction::Plan;
 use crate::physics::contact_time::Path;
 use crate::physics::model::{Model, Pull};
@@ -109,14 +108,6 @@ impl Flight {
     #[inline]
     pub(super) fn seat(&self, i: usize) -> usize {
         if self.seats.is_empty() { i } else { self.seats[i] as usize }
-    }
-
-    /// Asks for the seat of sphere `i`: it will be looked up soon.
-    #[inline]
-    pub(super) fn fetch_seat(&self, i: usize, lanes: Lanes) {
-        if let Some(seat) = self.seats.get(i) {
-            lanes.fetch(seat);
-        }
     }
 
     /// The sphere at a seat.

@@ -6,6 +6,8 @@
 //! decides when memory is read, and nothing else.
 
 use super::Exact;
+use super::cells::{Cells, Spot};
+use super::flight::Record;
 use super::near::Near;
 use crate::physics::Kind;
 use crate::physics::detector::Detector;
@@ -35,6 +37,21 @@ pub(super) struct Scout {
     blocks: [Vec<u32>; 2],
 }
 
+/// Whether a sphere crosses into another cube before it meets anybody.
+fn crosses(record: &Record) -> bool {
+    record.plan.crossing < record.plan.contact
+}
+
+/// Where a sphere will look around.
+fn next_spot(cells: &Cells, record: &Record) -> Spot {
+    if crosses(record) { cells.beyond(record.spot, record.plan.way) } else { record.spot }
+}
+
+/// The seat of the sphere that it meets, if that comes first.
+fn partner(record: &Record) -> Option<usize> {
+    (!crosses(record) && record.plan.kind == Kind::Pair).then_some(record.plan.other as usize)
+}
+
 impl<D: Detector> Exact<D> {
     /// Called at every event.
     #[inline]
@@ -54,32 +71,28 @@ impl<D: Detector> Exact<D> {
         let near = near.get_or_insert_with(|| Box::new(Near::nobody()));
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
         if let Some(record) = due(PLACES) {
-            cells.fetch_around(record.spot, *lanes);
-            if record.plan.kind == Kind::Pair {
-                let partner = &records[record.plan.other as usize];
-                lanes.fetch(&partner.line);
-                lanes.fetch(&partner.plan);
-                self.queue.fetch(record.plan.other as usize);
+            cells.fetch_around(next_spot(cells, record), *lanes);
+            if let Some(other) = partner(record) {
+                lanes.fetch(&records[other].line);
+                lanes.fetch(&records[other].plan);
+                self.queue.fetch(other);
             }
         }
-        let mut lines = |spot| {
-            cells.around(spot, near);
+        let mut lines = |spot, way| {
+            match way {
+                None => cells.around(spot, near),
+                Some(way) => cells.ahead(spot, way, near),
+            }
             near.seats().iter().for_each(|&seat| lanes.fetch(&records[seat as usize].line));
         };
         if let Some(record) = due(LINES) {
-            lines(record.spot);
-            flight.fetch_seat(record.sphere as usize, *lanes);
-            if record.plan.kind == Kind::Pair {
-                let partner = &records[record.plan.other as usize];
-                cells.fetch_around(partner.spot, *lanes);
-                flight.fetch_seat(partner.sphere as usize, *lanes);
+            lines(next_spot(cells, record), crosses(record).then_some(record.plan.way));
+            if let Some(other) = partner(record) {
+                cells.fetch_around(records[other].spot, *lanes);
             }
         }
-        if let Some(record) = due(PARTNER)
-            && record.plan.kind == Kind::Pair
-            && record.plan.contact <= record.plan.crossing
-        {
-            lines(records[record.plan.other as usize].spot);
+        if let Some(other) = due(PARTNER).and_then(partner) {
+            lines(records[other].spot, None);
         }
     }
 
