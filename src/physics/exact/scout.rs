@@ -6,7 +6,7 @@
 //! decides when memory is read, and nothing else.
 
 use super::Exact;
-use super::cells::{Cells, Spot};
+use super::cells::{Cells, Spot, Way};
 use super::flight::Record;
 use super::near::Near;
 use crate::physics::Kind;
@@ -91,8 +91,17 @@ impl<D: Detector> Exact<D> {
                 cells.fetch_around(records[other].spot, *lanes);
             }
         }
-        if let Some(other) = due(PARTNER).and_then(partner) {
-            lines(records[other].spot, None);
+        if let Some(record) = due(PARTNER)
+            && let Some(other) = partner(record)
+        {
+            // what is around both has been asked for: it is the layers on the partner's side that are missing
+            let spot = records[other].spot;
+            for axis in 0..3 {
+                let step = spot.cube[axis] - record.spot.cube[axis];
+                if step != 0 {
+                    lines(spot, Some(Way { axis: axis as u8, sign: step.signum() as i8 }));
+                }
+            }
         }
     }
 
