@@ -164,7 +164,7 @@ impl Cells {
         let [_, y, z] = self.strides;
         // the first place of the first row
         let first = spot.place - (1 + y + z);
-        self.gather([0, y, 2 * y].map(|y| [0, z, 2 * z].map(|z| first + y + z)).as_flattened(), near, 3);
+        self.gather([0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first + y + z)).as_flattened(), near, 3);
     }
 
     /// The spheres in the nine cubes that came within reach when a sphere went `way` into this cube.
@@ -178,7 +178,7 @@ impl Cells {
         let front = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
         let first = front - (one + two);
         self.gather(
-            [0, one, 2 * one].map(|one| [0, two, 2 * two].map(|two| first + one + two)).as_flattened(),
+            [0, two, 2 * two].map(|two| [0, one, 2 * one].map(|one| first + one + two)).as_flattened(),
             near,
             1,
         );
@@ -204,7 +204,7 @@ impl Cells {
             cube[(axis + 2) % 3] += two;
             self.place(cube)
         };
-        self.gather([-1, 0, 1].map(|one| [-1, 0, 1].map(|two| at(one, two))).as_flattened(), near, 1);
+        self.gather([-1, 0, 1].map(|two| [-1, 0, 1].map(|one| at(one, two))).as_flattened(), near, 1);
     }
 
     /// Copies the seats in rows of some places each, by the number of the first.
@@ -243,7 +243,7 @@ impl Cells {
     pub(super) fn fetch_around(&self, spot: Spot, lanes: Lanes) {
         let [_, y, z] = self.strides;
         let first = spot.place.wrapping_sub(1 + y + z);
-        for row in [0, y, 2 * y].map(|y| [0, z, 2 * z].map(|z| first.wrapping_add(y + z))).as_flattened() {
+        for row in [0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first.wrapping_add(y + z))).as_flattened() {
             if let Some([first, _, last]) = self.places.get(*row as usize..).and_then(<[Place]>::first_chunk) {
                 lanes.fetch(first);
                 lanes.fetch(last);
