@@ -82,18 +82,21 @@ pub const LARGEST: f64 = 1e75;
 /// The one place where motion that is no number, or runs away beyond [`LARGEST`], is found and ends a run: nothing, or the
 /// sphere, the time (s) and the `cause`, which goes on after a colon. The door asks it of all spheres before a method
 /// begins; each method asks it where it has changed a motion.
+#[inline]
 pub(super) fn runaway(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Option<Stall> {
-    let held = |u: DVec3| u.abs().cmple(DVec3::splat(LARGEST)).all();
-    if held(x) && held(v) {
-        return None;
-    }
+    let held = |u: DVec3| (u.x.abs() <= LARGEST) & (u.y.abs() <= LARGEST) & (u.z.abs() <= LARGEST);
+    if held(x) & held(v) { None } else { Some(ran_away(sphere, t, [x, v], cause)) }
+}
+
+#[cold]
+fn ran_away(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Stall {
     let vector = |u: DVec3| format!("({:e}, {:e}, {:e})", u.x, u.y, u.z);
     let reason = format!(
         "Sphere {sphere} leaves the range of numbers, {LARGEST:e}, at t = {t} s with x = {} m, v = {} m/s: {cause}.",
         vector(x),
         vector(v)
     );
-    Some(Stall { time: t, kind: "not-finite", reason })
+    Stall { time: t, kind: "not-finite", reason }
 }
 
 /// Why a run cannot go on.

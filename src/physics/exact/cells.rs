@@ -4,13 +4,14 @@
 //! its size, so that no bounds are needed and a spreading cloud costs no memory. Cubes that share a place cost a
 //! prediction each, never an event. A sphere that crosses into the next cube is an event; it then meets nine new cubes.
 //!
-//! A place is sixteen bytes with its spheres' seats in them, and 4 × 4 × 4 places lie together, so that what is around
-//! a sphere is in few cache lines and few pages. Whoever looks around copies them all without asking how many there
-//! are, since a branch that is mispredicted costs more than the copy.
+//! A place is sixteen bytes with its spheres' seats in them, and those of a row of cubes lie side by side, so that what is
+//! around a sphere is nine rows of three at fixed distances, but at the table's border. Whoever looks around copies them
+//! all without asking how many there are, since a branch that is mispredicted costs more than the copy.
 
 use glam::DVec3;
 
-use super::lanes::{Four, Lanes, MOST};
+use super::lanes::Lanes;
+use super::near::{MOST_NEAR, Near, ROOM};
 use crate::geometry::Bounds;
 use crate::physics::State;
 use crate::physics::contact_time::{Path, quadratic_fall};
@@ -25,23 +26,27 @@ const SLOTS: usize = 3;
 /// Copied at once from a place: its slots and its mark.
 const PLACE: usize = SLOTS + 1;
 
-/// What the 27 places around a sphere hold without spilling is fewer than this.
-const MOST_NEAR: usize = 128;
-
-/// Room for it, one more place and padding to four.
-const ROOM: usize = MOST_NEAR + 2 * PLACE;
-
 /// In a mark: where the number of spheres in slots begins.
 const COUNT: u32 = 30;
 
 /// In a mark: walls are near.
 const WALLS: u32 = 1 << 29;
 
+/// In a mark: the place is at the border of the table, where what is around it is elsewhere.
+const BORDER: u32 = 1 << 28;
+
 /// In a mark, the bits of the seat spilled last; all of them: nobody.
-const NOBODY: u32 = WALLS - 1;
+const NOBODY: u32 = BORDER - 1;
 
 /// A cube.
 pub(super) type Cube = [i32; 3];
+
+/// Where a sphere is: its cube, and that cube's place in the table.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Spot {
+    pub(super) cube: Cube,
+    pub(super) place: u32,
+}
 
 /// A sphere leaves its cube: the axis, and +1 or −1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -74,7 +79,7 @@ impl Place {
     }
 
     fn empty(&mut self) {
-        *self = Place([0, 0, 0, self.0[SLOTS] & WALLS | NOBODY]);
+        *self = Place([0, 0, 0, self.0[SLOTS] & (WALLS | BORDER) | NOBODY]);
     }
 }
 
@@ -83,53 +88,16 @@ impl Place {
 pub(super) struct Cells {
     origin: DVec3,
     edge: f64,
-    /// The table's size along each axis, in fours.
+    /// The table's size along each axis.
     size: [i32; 3],
+    /// From one place to the next along each axis.
+    strides: [u32; 3],
     places: Vec<Place>,
-    /// What coordinates −1 to `size` add to a place's number, by axis.
-    shares: [Vec<u32>; 3],
     /// The seat spilled before this one into the same place; empty as long as none is.
     next: Vec<u32>,
     /// Walls near the cubes of place p: `walls[starts[p]..starts[p + 1]]`, ascending.
     starts: Vec<u32>,
     walls: Vec<u32>,
-}
-
-/// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Near {
-    seats: Vec<u32>,
-    count: usize,
-    /// Room to look at them four by four.
-    pub(super) fours: Vec<Four>,
-}
-
-impl Near {
-    /// Nobody.
-    pub(super) fn nobody() -> Near {
-        Near { seats: vec![0; ROOM], count: 0, fours: vec![Four::default(); MOST / 4] }
-    }
-
-    /// Who is near.
-    #[inline]
-    pub(super) fn seats(&self) -> &[u32] {
-        &self.seats[..self.count]
-    }
-
-    /// The same made up to fours by `seat`, and the room to look at them.
-    #[inline]
-    pub(super) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four]) {
-        self.seats[self.count..self.count + 4].fill(seat as u32);
-        (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
-    }
-
-    fn push(&mut self, seat: u32) {
-        self.seats[self.count] = seat;
-        self.count += 1;
-        if self.count + 5 > self.seats.len() {
-            self.seats.resize(2 * self.seats.len(), 0);
-        }
-    }
 }
 
 impl Cells {
@@ -144,32 +112,43 @@ impl Cells {
             origin: room.min,
             edge,
             size,
+            strides: [1, size[0] as u32, size[0] as u32 * size[1] as u32],
             places: vec![Place::EMPTY; size.iter().map(|&n| n as usize).product()],
-            shares: shares(size),
             next: Vec::new(),
             starts: Vec::new(),
             walls: Vec::new(),
         };
+        cells.mark_borders();
         cells.register(model, widest);
         cells
     }
 
-    /// Fills the table with spheres in these cubes, seat by seat, and with no others.
-    pub(super) fn fill(&mut self, cubes: impl ExactSizeIterator<Item = Cube>) {
+    fn mark_borders(&mut self) {
+        let [x, y, z] = self.size.map(|n| n as usize);
+        let end = |k: usize, n: usize| k == 0 || k + 1 == n;
+        for (number, place) in self.places.iter_mut().enumerate() {
+            if end(number % x, x) || end(number / x % y, y) || end(number / x / y, z) {
+                place.0[SLOTS] |= BORDER;
+            }
+        }
+    }
+
+    /// Fills the table with spheres in these places, seat by seat, and with no others.
+    pub(super) fn fill(&mut self, places: impl ExactSizeIterator<Item = u32>) {
         self.places.iter_mut().for_each(Place::empty);
         if !self.next.is_empty() {
-            self.next = vec![NOBODY; cubes.len()];
+            self.next = vec![NOBODY; places.len()];
         }
-        let seats = cubes.len();
-        for (seat, cube) in cubes.enumerate() {
-            self.link(seat, cube, seats);
+        let seats = places.len();
+        for (seat, place) in places.enumerate() {
+            self.link(seat, place, seats);
         }
     }
 
     /// Walls near a cube, ascending.
     #[inline]
-    pub(super) fn walls_near(&self, cube: Cube) -> &[u32] {
-        let place = self.place(cube);
+    pub(super) fn walls_near(&self, spot: Spot) -> &[u32] {
+        let place = spot.place as usize;
         if self.places[place].0[SLOTS] & WALLS == 0 {
             return &[];
         }
@@ -178,47 +157,80 @@ impl Cells {
 
     /// The spheres in the 27 cubes around a cube.
     #[inline]
-    pub(super) fn around(&self, cube: Cube, near: &mut Near) {
-        let [x, y, z] = cube;
-        self.gather(self.beside(0, x), self.beside(1, y), self.beside(2, z), near);
+    pub(super) fn around(&self, spot: Spot, near: &mut Near) {
+        if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
+            return self.around_border(spot.cube, near);
+        }
+        let [_, y, z] = self.strides;
+        // the first place of the first row
+        let first = spot.place - (1 + y + z);
+        self.gather([0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first + y + z)).as_flattened(), near, 3);
     }
 
     /// The spheres in the nine cubes that came within reach when a sphere went `way` into this cube.
     #[inline]
-    pub(super) fn ahead(&self, cube: Cube, way: Way, near: &mut Near) {
-        let axis = way.axis as usize;
-        let (one, two) = ((axis + 1) % 3, (axis + 2) % 3);
-        let front = self.share(axis, cube[axis] + i32::from(way.sign));
-        self.gather([front], self.beside(one, cube[one]), self.beside(two, cube[two]), near);
+    pub(super) fn ahead(&self, spot: Spot, way: Way, near: &mut Near) {
+        if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
+            return self.ahead_border(spot.cube, way, near);
+        }
+        let axis = way.axis as usize % 3;
+        let (one, two) = (self.strides[(axis + 1) % 3], self.strides[(axis + 2) % 3]);
+        let front = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
+        let first = front - (one + two);
+        self.gather(
+            [0, two, 2 * two].map(|two| [0, one, 2 * one].map(|one| first + one + two)).as_flattened(),
+            near,
+            1,
+        );
     }
 
-    /// Copies the seats of all places whose number is a sum of one share of each axis.
+    /// The same at the border of the table.
+    #[cold]
+    #[inline(never)]
+    fn around_border(&self, [x, y, z]: Cube, near: &mut Near) {
+        let places =
+            [-1, 0, 1].map(|dz| [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| self.place([x + dx, y + dy, z + dz]))));
+        self.gather(places.as_flattened().as_flattened(), near, 1);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn ahead_border(&self, cube: Cube, way: Way, near: &mut Near) {
+        let axis = way.axis as usize;
+        let at = |one: i32, two: i32| {
+            let mut cube = cube;
+            cube[axis] += i32::from(way.sign);
+            cube[(axis + 1) % 3] += one;
+            cube[(axis + 2) % 3] += two;
+            self.place(cube)
+        };
+        self.gather([-1, 0, 1].map(|two| [-1, 0, 1].map(|one| at(one, two))).as_flattened(), near, 1);
+    }
+
+    /// Copies the seats in rows of some places each, by the number of the first.
     #[inline(always)]
-    fn gather<const N: usize>(&self, ones: [u32; N], twos: [u32; 3], threes: [u32; 3], near: &mut Near) {
+    fn gather(&self, rows: &[u32], near: &mut Near, width: usize) {
         let (mut count, mut marks) = (0, NOBODY);
         let Some(seats) = near.seats.first_chunk_mut::<ROOM>() else { return };
-        for three in threes {
-            for two in twos {
-                for one in ones {
-                    let Place(slots) = &self.places[(one + two + three) as usize];
-                    // the remainder says no more than that there is room
-                    let free = count % MOST_NEAR;
-                    seats[free..free + PLACE].copy_from_slice(slots);
-                    count += (slots[SLOTS] >> COUNT) as usize;
-                    marks &= slots[SLOTS];
-                }
+        for &row in rows {
+            for Place(slots) in &self.places[row as usize..row as usize + width] {
+                // the remainder says no more than that there is room
+                let free = count % MOST_NEAR;
+                seats[free..free + PLACE].copy_from_slice(slots);
+                count += (slots[SLOTS] >> COUNT) as usize;
+                marks &= slots[SLOTS];
             }
         }
         near.count = count;
         if marks & NOBODY != NOBODY {
-            self.gather_spilled(&ones, twos, threes, near);
+            self.gather_spilled(rows, near, width);
         }
     }
 
     #[cold]
-    fn gather_spilled(&self, ones: &[u32], twos: [u32; 3], threes: [u32; 3], near: &mut Near) {
-        for place in threes.iter().flat_map(|c| twos.iter().flat_map(move |b| ones.iter().map(move |a| a + b + c))) {
-            let mut seat = self.places[place as usize].spilled();
+    fn gather_spilled(&self, rows: &[u32], near: &mut Near, width: usize) {
+        for place in rows.iter().flat_map(|&row| &self.places[row as usize..row as usize + width]) {
+            let mut seat = place.spilled();
             while seat != NOBODY {
                 near.push(seat);
                 seat = self.next[seat as usize];
@@ -228,12 +240,13 @@ impl Cells {
 
     /// Asks for the places around a cube: they will be read soon.
     #[inline]
-    pub(super) fn fetch_around(&self, cube: Cube, lanes: Lanes) {
-        for z in self.beside(2, cube[2]) {
-            for y in self.beside(1, cube[1]) {
-                let [first, _, last] = self.beside(0, cube[0]);
-                lanes.fetch(&self.places[(first + y + z) as usize]);
-                lanes.fetch(&self.places[(last + y + z) as usize]);
+    pub(super) fn fetch_around(&self, spot: Spot, lanes: Lanes) {
+        let [_, y, z] = self.strides;
+        let first = spot.place.wrapping_sub(1 + y + z);
+        for row in [0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first.wrapping_add(y + z))).as_flattened() {
+            if let Some([first, _, last]) = self.places.get(*row as usize..).and_then(<[Place]>::first_chunk) {
+                lanes.fetch(first);
+                lanes.fetch(last);
             }
         }
     }
@@ -288,18 +301,26 @@ impl Cells {
 
     /// The sphere at a seat goes `way` from its cube: by the index, since a recomputed position may disagree with the
     /// event. Returns where it is then.
-    pub(super) fn cross(&mut self, seat: usize, cube: Cube, way: Way, seats: usize) -> Cube {
-        self.unlink(seat as u32, cube);
-        let mut next = cube;
-        next[way.axis as usize] += i32::from(way.sign);
-        self.link(seat, next, seats);
+    pub(super) fn cross(&mut self, seat: usize, spot: Spot, way: Way, seats: usize) -> Spot {
+        let next = self.beyond(spot, way);
+        self.unlink(seat as u32, spot.place);
+        self.link(seat, next.place, seats);
         next
     }
 
+    /// The cube that a sphere comes to when it goes `way`.
+    #[inline]
+    pub(super) fn beyond(&self, spot: Spot, way: Way) -> Spot {
+        let (axis, mut cube) = (way.axis as usize % 3, spot.cube);
+        cube[axis] += i32::from(way.sign);
+        let border = self.places[spot.place as usize].0[SLOTS] & BORDER != 0;
+        let beside = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
+        Spot { cube, place: if border { self.place(cube) } else { beside } }
+    }
+
     /// Enters a seat, one of so many.
-    fn link(&mut self, seat: usize, cube: Cube, seats: usize) {
-        let number = self.place(cube);
-        let place = &mut self.places[number];
+    fn link(&mut self, seat: usize, place: u32, seats: usize) {
+        let place = &mut self.places[place as usize];
         let count = place.count();
         if count < SLOTS {
             place.0[count] = seat as u32;
@@ -313,15 +334,16 @@ impl Cells {
         place.spill(seat as u32);
     }
 
-    fn unlink(&mut self, seat: u32, cube: Cube) {
-        let number = self.place(cube);
-        let place = &mut self.places[number];
-        let count = place.count();
-        let Some(slot) = place.0[..count].iter().position(|&other| other == seat) else {
-            self.unspill(number, seat);
+    fn unlink(&mut self, seat: u32, number: u32) {
+        let place = &mut self.places[number as usize];
+        // what is left beyond the count is looked at too, but never found first
+        let not = |slot: usize| usize::from(place.0[slot] != seat);
+        let slot = not(0) * (1 + not(1) * (1 + not(2)));
+        if slot == SLOTS {
+            self.unspill(number as usize, seat);
             return;
-        };
-        let spilled = place.spilled();
+        }
+        let (count, spilled) = (place.count(), place.spilled());
         if spilled == NOBODY {
             place.0[slot] = place.0[count - 1];
             place.0[SLOTS] -= 1 << COUNT;
@@ -346,41 +368,20 @@ impl Cells {
         self.next[at as usize] = after;
     }
 
-    /// The number of a cube's place.
-    #[inline]
-    pub(super) fn place(&self, cube: Cube) -> usize {
-        (self.share(0, cube[0]) + self.share(1, cube[1]) + self.share(2, cube[2])) as usize
+    /// The number of a cube's place. The cubes that the spheres begin in and those around them are off the border.
+    fn place(&self, cube: Cube) -> u32 {
+        let share = |axis: usize| (cube[axis] + 2).rem_euclid(self.size[axis]) as u32 * self.strides[axis];
+        share(0) + share(1) + share(2)
     }
 
-    /// What a cube's coordinate along an axis adds to its place's number.
-    #[inline(always)]
-    fn share(&self, axis: usize, coordinate: i32) -> u32 {
-        self.shares[axis][self.folded(axis, coordinate) + 1]
-    }
-
-    /// The same for a coordinate and its two neighbours.
-    #[inline(always)]
-    fn beside(&self, axis: usize, coordinate: i32) -> [u32; 3] {
-        let c = self.folded(axis, coordinate);
-        let shares = &self.shares[axis][c..c + 3];
-        [shares[0], shares[1], shares[2]]
-    }
-
-    /// A cube's coordinate modulo the table's size.
-    #[inline(always)]
-    fn folded(&self, axis: usize, coordinate: i32) -> usize {
-        // nearly always within, negative ones are not: a division would cost more than all the rest
-        if (coordinate as u32) < self.size[axis] as u32 { coordinate as usize } else { self.wrapped(axis, coordinate) }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn wrapped(&self, axis: usize, coordinate: i32) -> usize {
-        coordinate.rem_euclid(self.size[axis]) as usize
+    /// Where a point (m) is.
+    pub(super) fn spot(&self, x: DVec3) -> Spot {
+        let cube = self.cube_of(x);
+        Spot { cube, place: self.place(cube) }
     }
 
     /// The cube that holds a point (m).
-    pub(super) fn cube_of(&self, x: DVec3) -> Cube {
+    fn cube_of(&self, x: DVec3) -> Cube {
         let index = |axis: usize| ((x[axis] - self.origin[axis]) / self.edge).floor();
         // a float beyond i32 becomes its end, and the clamp brings it in
         [0, 1, 2].map(|axis| (index(axis) as i32).clamp(-OUTERMOST, OUTERMOST))
@@ -407,7 +408,7 @@ impl Cells {
                         let far = face.height(self.origin + middle * self.edge).abs() > half;
                         // a folded range stands for many cubes: the plane's distance tells nothing
                         if wraps || !far || self.is_rim([x, y, z]) {
-                            near.push((self.place([x, y, z]) as u32, wall as u32));
+                            near.push((self.place([x, y, z]), wall as u32));
                         }
                     }
                 }
@@ -452,11 +453,11 @@ fn edge(reach: f64, size: DVec3, count: usize) -> f64 {
     edge.min(1.6 * reach)
 }
 
-/// The table's size along each axis, in fours: enough for the spheres' box, no more than some cubes a sphere.
+/// The table's size along each axis: enough for the spheres' box, a cube more all around it and a border, no more than some cubes a sphere.
 fn table(cubes: DVec3, count: usize) -> [i32; 3] {
-    let limit = (4 * count).max(64) as f64;
+    let limit = (4 * count).max(8192) as f64;
     // a float beyond i32 becomes its end
-    let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 2);
+    let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 5);
     while size.iter().copied().map(f64::from).product::<f64>() > limit {
         let longest = (0..3).max_by_key(|&axis| size[axis]).unwrap_or(0);
         if size[longest] <= 4 {
@@ -464,18 +465,10 @@ fn table(cubes: DVec3, count: usize) -> [i32; 3] {
         }
         size[longest] = size[longest] / 2 + 1;
     }
-    size.map(|n| (n + 3) / 4 * 4)
+    size.map(|n| n.max(4))
 }
 
-/// What the coordinates −1 to `size` add to a place's number, by axis: blocks of 4 × 4 × 4 places one after the other.
-fn shares(size: [i32; 3]) -> [Vec<u32>; 3] {
-    let [x, y, _] = size.map(|n| n as u32 / 4);
-    let blocks = [64, 64 * x, 64 * x * y];
-    [0, 1, 2].map(|axis| {
-        let share = |c: i32| {
-            let c = c.rem_euclid(size[axis]) as u32;
-            c / 4 * blocks[axis] + c % 4 * [1, 4, 16][axis]
-        };
-        (-1..=size[axis]).map(share).collect()
-    })
+/// Orders cubes so that neighbours are near: 4 × 4 × 4 of them, then the next.
+pub(super) fn nearness([x, y, z]: Cube) -> [i32; 6] {
+    [z >> 2, y >> 2, x >> 2, z & 3, y & 3, x & 3]
 }

@@ -68,6 +68,14 @@ impl<D: Detector> Exact<D> {
         row.is_endless(approach_speed, keeps)
     }
 
+    /// Whether [`Exact::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
+    #[inline(always)]
+    pub(super) fn may_chatter(&self, meeting: &Meeting, since: f64) -> bool {
+        let fed = self.flight.common() != Some(DVec3::ZERO);
+        let small = (SMALL * meeting.reach).max(HOP * meeting.size());
+        fed && (!self.chatter.is_empty() || -meeting.v_n * (self.now - since) <= 4.0 * small)
+    }
+
     /// Whether anything pulls a body of this contact. What nothing feeds dies out, or collapses at one instant.
     fn is_fed(&self, model: &Model, (kind, a, b): Key) -> bool {
         let pulled = |i: usize| model.acceleration(i) != DVec3::ZERO;

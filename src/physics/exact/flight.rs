@@ -9,8 +9,7 @@
 
 use glam::DVec3;
 
-use super::cells::Cube;
-use super::lanes::Lanes;
+use super::cells::Spot;
 use super::prediction::Plan;
 use crate::physics::contact_time::Path;
 use crate::physics::model::{Model, Pull};
@@ -30,6 +29,22 @@ pub(super) struct Line {
     pub(super) r: f64,
 }
 
+impl Line {
+    /// The path from time `t` (s) on, with acceleration `a`, m/s².
+    #[inline(always)]
+    pub(super) fn path(&self, a: DVec3, t: f64) -> Path {
+        let dt = t - self.t;
+        Path { x: self.x + (self.v + a * (0.5 * dt)) * dt, v: self.v + a * dt, a }
+    }
+
+    /// The same line, brought to time `t`, s.
+    #[inline(always)]
+    pub(super) fn brought(&self, a: DVec3, t: f64) -> Line {
+        let Path { x, v, .. } = self.path(a, t);
+        if t == self.t { *self } else { Line { x, t, v, r: self.r } }
+    }
+}
+
 /// All that an event needs of a sphere: two cache lines, of which those who only look at it read the first.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(128))]
@@ -37,7 +52,7 @@ pub(super) struct Record {
     pub(super) line: Line,
     pub(super) plan: Plan,
     /// The cube it is in, if there are cells.
-    pub(super) cube: Cube,
+    pub(super) spot: Spot,
     /// How often its motion has changed.
     pub(super) stamp: u32,
     /// Its index in the scene.
@@ -75,7 +90,7 @@ impl Flight {
         let record = |i: usize| Record {
             line: Line { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
             plan: Plan::IDLE,
-            cube: [0; 3],
+            spot: Spot::default(),
             stamp: 0,
             sphere: i as u32,
             inverse_mass: model.inverse_masses[i],
@@ -93,14 +108,6 @@ impl Flight {
     #[inline]
     pub(super) fn seat(&self, i: usize) -> usize {
         if self.seats.is_empty() { i } else { self.seats[i] as usize }
-    }
-
-    /// Asks for the seat of sphere `i`: it will be looked up soon.
-    #[inline]
-    pub(super) fn fetch_seat(&self, i: usize, lanes: Lanes) {
-        if let Some(seat) = self.seats.get(i) {
-            lanes.fetch(seat);
-        }
     }
 
     /// The sphere at a seat.
@@ -169,9 +176,7 @@ impl Flight {
     #[inline]
     pub(super) fn path_from(&self, seat: usize, t: f64) -> Path {
         let record = &self.records[seat];
-        let (line, a) = (&record.line, self.acceleration(record.sphere as usize));
-        let dt = t - line.t;
-        Path { x: line.x + (line.v + a * (0.5 * dt)) * dt, v: line.v + a * dt, a }
+        record.line.path(self.acceleration(record.sphere as usize), t)
     }
 
     /// Rewrites the line of sphere `i`: from time `t` on it starts at `x` with `v`.
@@ -188,12 +193,21 @@ impl Flight {
     pub(super) fn bring(&mut self, i: usize, t: f64) {
         let (seat, acceleration) = (self.seat(i), self.acceleration(i));
         let line = &mut self.records[seat].line;
-        let dt = t - line.t;
-        if dt != 0.0 {
+        if line.t != t {
             self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
-            let (x, v) = (line.x + (line.v + acceleration * (0.5 * dt)) * dt, line.v + acceleration * dt);
-            *line = Line { x, t, v, r: line.r };
+            *line = line.brought(acceleration, t);
         }
+    }
+
+    /// From now on the sphere at a seat, which shares what accelerates all, is on another line: what others planned with it is stale.
+    #[inline]
+    pub(super) fn turn(&mut self, seat: usize, line: Line) {
+        let record = &mut self.records[seat];
+        if record.line.t != line.t {
+            let past = Past { sphere: record.sphere, until: line.t, line: record.line, acceleration: self.common };
+            self.past.push(past);
+        }
+        (record.line, record.stamp) = (line, record.stamp.wrapping_add(1));
     }
 
     /// Gives sphere `i`, whose line is at the present, another acceleration, m/s².

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
-use super::bounce::along;
+use super::bounce::{along, pair_push};
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
 use crate::physics::detector::Detector;
@@ -17,7 +17,7 @@ use crate::physics::{Class, Contact, Kind, Model, Stall};
 
 /// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
 /// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
-const COLLAPSE: u32 = 1000;
+pub(super) const COLLAPSE: u32 = 1000;
 
 /// Impacts by then of another contact that belongs to the same collapse, and rests with it: the limit of the chain is
 /// that none of them approaches any longer.
@@ -50,7 +50,7 @@ const CLOCK: f64 = 1e-3;
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Instant {
-    events: u64,
+    pub(super) events: u64,
     impacts: BTreeMap<Key, u32>,
     /// Whether a chain of impacts has collapsed.
     collapsed: bool,
@@ -124,6 +124,14 @@ impl Meeting {
     }
 }
 
+/// Tells the log of an impact.
+#[inline]
+pub(super) fn note(log: &mut Log, row: Contact) {
+    log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
+    log.contacts.push(row);
+    log.event(row);
+}
+
 impl<D: Detector> Exact<D> {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
@@ -164,17 +172,15 @@ impl<D: Detector> Exact<D> {
     /// The contact that the sphere at a seat planned is due.
     pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
         let plan = self.flight.records[seat].plan;
-        if !plan.sure {
-            self.predict_at(model, seat);
-            return Ok(());
-        }
         let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
-        let key = self.key(seat, &plan);
-        if stale || self.rests.holds(key) {
-            self.predict_at(model, seat);
+        let rests = !self.rests.is_empty() && self.rests.holds(self.key(seat, &plan));
+        if !plan.sure || stale || rests {
+            self.predict_first(model, seat);
             return Ok(());
         }
-        self.meet(model, log, key)?;
+        if !self.strike(model, log, seat, &plan)? {
+            self.meet(model, log, self.key(seat, &plan))?;
+        }
         // whatever became of the contact, this plan is used up
         if self.flight.records[seat].plan == plan {
             self.predict_at(model, seat);
@@ -340,10 +346,9 @@ impl<D: Detector> Exact<D> {
             Kind::Pair => {
                 let (one, two) = (*self.flight.line(a), *self.flight.line(b));
                 let (arm, w) = (one.x - two.x, one.v - two.v);
-                // along the arm by its actual length: a unit normal's rounding would let the energy creep upwards
                 let (share_a, share_b) = (self.flight.inverse_mass(a), self.flight.inverse_mass(b));
                 let share = share_a + share_b;
-                let push = arm * (-(1.0 + model.law.restitution) * arm.dot(w) / (arm.length_squared() * share));
+                let push = pair_push(arm, w, share, model.law.restitution);
                 self.push(a, push * share_a);
                 self.push(b, push * -share_b);
                 change / share
@@ -351,9 +356,7 @@ impl<D: Detector> Exact<D> {
         };
         self.part(model, meeting.key, 0.0);
         let row = meeting.row(self.now, Class::Collide, impulse, target);
-        log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
-        log.contacts.push(row);
-        log.event(row);
+        note(log, row);
         self.follow_up(model, log, meeting.key)?;
         if target == 0.0 && meeting.a_n < 0.0 {
             // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
@@ -412,8 +415,14 @@ impl<D: Detector> Exact<D> {
 
     /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
-        let line = self.flight.line(i);
+        self.finite_at(self.flight.seat(i))
+    }
+
+    /// The same for the sphere at a seat.
+    #[inline]
+    pub(super) fn finite_at(&self, seat: usize) -> Result<(), Stall> {
+        let line = &self.flight.records[seat].line;
         let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
-        runaway(i, self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
+        runaway(self.flight.sphere(seat), self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

@@ -25,6 +25,27 @@ pub(super) struct Four {
     pub(super) discriminant: [f64; 4],
 }
 
+/// Room for what is found out in one call, and for a pair that never meets.
+pub(super) const FOURS: usize = MOST / 4 + 1;
+
+impl Four {
+    /// Never.
+    pub(super) const NEVER: Four = Four { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
+}
+
+/// The earliest of some pairs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Earliest {
+    /// When they meet, s; infinite if none does before the other meets somebody.
+    pub(super) time: f64,
+    /// The other's seat.
+    pub(super) with: u32,
+    /// A bit for each pair that meets.
+    pub(super) meet: u64,
+    /// Whether one of them overlaps, or another meets at the same time: they are to be looked at one by one.
+    pub(super) doubtful: bool,
+}
+
 /// Who looks: a sphere's path and radius at the present, s, with the acceleration that all share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Eye<'a> {
@@ -49,10 +70,18 @@ impl Lanes {
         }
     }
 
-    /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most; a bit for each
-    /// pair that meets.
+    /// As a processor that cannot.
+    #[cfg(test)]
+    fn plain() -> Lanes {
+        Lanes {
+            #[cfg(target_arch = "x86_64")]
+            wide: None,
+        }
+    }
+
+    /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most.
     #[inline]
-    pub(super) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 {
+    pub(super) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> Earliest {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             return match eye.path.a == DVec3::ZERO {
@@ -60,7 +89,8 @@ impl Lanes {
                 false => wide.vectorize(wide::Look::<true> { wide, eye, records, seats, fours }),
             };
         }
-        look(eye, records, seats, fours)
+        let meet = look(eye, records, seats, fours);
+        earliest(meet, records, seats, fours, |four| times(eye.now, four))
     }
 
     /// Asks for what will be read soon.
@@ -93,10 +123,10 @@ pub(super) trait Tournament {
 
 /// Judges eight times.
 pub(super) trait Judge: Copy {
-    /// The smallest.
-    fn least(self, times: &Eight) -> f64;
-    /// A bit for each that equals `time`, the smallest.
-    fn equals(self, times: &Eight, time: f64) -> u32;
+    /// The smallest, and a bit for each that equals it.
+    fn judge(self, times: &Eight) -> (f64, u32);
+    /// Puts `time` in the place `k` of another, and judges.
+    fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32);
 }
 
 /// One by one.
@@ -105,20 +135,22 @@ struct Plain;
 
 impl Judge for Plain {
     #[inline]
-    fn least(self, times: &Eight) -> f64 {
+    fn judge(self, times: &Eight) -> (f64, u32) {
         let smaller = |a: f64, b: f64| if b < a { b } else { a };
         let [a, b, c, d, e, f, g, h] = times.0;
-        smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)))
+        let least = smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)));
+        // none is below the least: one comparison tells, where equality takes two
+        (least, times.0.iter().enumerate().map(|(k, &t)| u32::from(t <= least) << k).sum())
     }
 
     #[inline]
-    fn equals(self, times: &Eight, time: f64) -> u32 {
-        // none is below the least: one comparison tells, where equality takes two
-        times.0.iter().enumerate().map(|(k, &t)| u32::from(t <= time) << k).sum()
+    fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32) {
+        times.0[k] = time;
+        self.judge(times)
     }
 }
 
-fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 {
+fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> u64 {
     let mut meet = 0;
     for (k, &seat) in seats.iter().enumerate() {
         let line = &records[seat as usize].line;
@@ -135,6 +167,56 @@ fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four]) -> u64 
     meet
 }
 
+/// When four pairs that meet do, s.
+fn times(now: f64, four: &Four) -> [f64; 4] {
+    [0, 1, 2, 3].map(|k| now + four.c[k] / (four.discriminant[k].sqrt() - four.b[k]))
+}
+
+/// The earliest of the pairs with a bit in `meet`, four at a time: few meet at all, and how many cannot be predicted.
+#[inline(always)]
+fn earliest(
+    meet: u64,
+    records: &[Record],
+    seats: &[u32],
+    fours: &[Four; FOURS],
+    times: impl Fn(&Four) -> [f64; 4],
+) -> Earliest {
+    let mut first = Earliest { time: f64::INFINITY, with: seats[0], meet, doubtful: false };
+    let mut left = meet;
+    loop {
+        // 64 when none is left, which stands for the pair that never meets
+        let hits = [0; 4].map(|_| {
+            let hit = left.trailing_zeros() as usize;
+            left &= left.wrapping_sub(1);
+            hit
+        });
+        let four = Four {
+            b: hits.map(|k| fours[k / 4].b[k % 4]),
+            c: hits.map(|k| fours[k / 4].c[k % 4]),
+            discriminant: hits.map(|k| fours[k / 4].discriminant[k % 4]),
+        };
+        let others = hits.map(|k| seats[k % MOST]);
+        let found = times(&four);
+        // what the other meets before makes it look around anew, and find this one then
+        let due = [0, 1, 2, 3].map(|k| {
+            let theirs = records[others[k] as usize].plan.contact;
+            if found[k] <= theirs { found[k] } else { f64::INFINITY }
+        });
+        let smaller = |a: f64, b: f64| if b < a { b } else { a };
+        let least = smaller(smaller(due[0], due[1]), smaller(due[2], due[3]));
+        let equal: u32 = (0..4).map(|k| u32::from(due[k] <= least) << k).sum();
+        let tied = (equal & equal.wrapping_sub(1) != 0 || least == first.time) && least < f64::INFINITY;
+        let overlap = smaller(smaller(four.c[0], four.c[1]), smaller(four.c[2], four.c[3])) <= 0.0;
+        first.doubtful |= tied || overlap;
+        if least < first.time {
+            (first.time, first.with) = (least, others[equal.trailing_zeros() as usize % 4]);
+        }
+        if left == 0 {
+            return first;
+        }
+    }
+}
+
 #[cfg(target_arch = "x86_64")]
 mod wide {
     use std::arch::x86_64::__m256d;
@@ -142,6 +224,7 @@ mod wide {
     use pulp::NullaryFnOnce;
 
     use super::*;
+    use crate::physics::exact::flight::Line;
 
     /// Looks at pairs of spheres that an acceleration bends or not.
     pub(super) struct Look<'a, const BENT: bool> {
@@ -149,7 +232,7 @@ mod wide {
         pub(super) eye: Eye<'a>,
         pub(super) records: &'a [Record],
         pub(super) seats: &'a [u32],
-        pub(super) fours: &'a mut [Four],
+        pub(super) fours: &'a mut [Four; FOURS],
     }
 
     pub(super) struct Run<J> {
@@ -168,24 +251,37 @@ mod wide {
 
     impl Judge for V3 {
         #[inline(always)]
-        fn least(self, times: &Eight) -> f64 {
-            let [low, high] = halves(self, times);
-            let four = self.avx._mm256_min_pd(low, high);
-            let two = self.avx._mm256_min_pd(four, self.avx._mm256_permute2f128_pd::<1>(four, four));
-            let one = self.avx._mm256_min_pd(two, self.avx._mm256_permute_pd::<5>(two));
-            pulp::cast::<__m256d, [f64; 4]>(one)[0]
+        fn judge(self, times: &Eight) -> (f64, u32) {
+            judge(self, halves(self, times))
         }
 
         #[inline(always)]
-        fn equals(self, times: &Eight, time: f64) -> u32 {
-            let time = self.avx._mm256_set1_pd(time);
-            let bits = |four| self.avx._mm256_movemask_pd(self.avx._mm256_cmp_pd::<LESS_OR_EQUAL>(four, time)) as u32;
+        fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32) {
+            // in registers: what has just been written to memory in one piece is slow to read with what is beside it
+            let (k, time) = (self.avx._mm256_set1_pd(k as f64), self.avx._mm256_set1_pd(time));
             let [low, high] = halves(self, times);
-            bits(low) | bits(high) << 4
+            let place = |first: f64| self.avx._mm256_set_pd(first + 3.0, first + 2.0, first + 1.0, first);
+            let here = |first: f64| self.avx._mm256_cmp_pd::<EQUAL>(k, place(first));
+            let both =
+                [self.avx._mm256_blendv_pd(low, time, here(0.0)), self.avx._mm256_blendv_pd(high, time, here(4.0))];
+            times.0 = pulp::cast(both);
+            judge(self, both)
         }
     }
 
+    #[inline(always)]
+    fn judge(wide: V3, [low, high]: [__m256d; 2]) -> (f64, u32) {
+        let avx = wide.avx;
+        let four = avx._mm256_min_pd(low, high);
+        let two = avx._mm256_min_pd(four, avx._mm256_permute2f128_pd::<1>(four, four));
+        let least = avx._mm256_min_pd(two, avx._mm256_permute_pd::<5>(two));
+        // none is below the least: as in the plain judge
+        let bits = |four| avx._mm256_movemask_pd(avx._mm256_cmp_pd::<LESS_OR_EQUAL>(four, least)) as u32;
+        (pulp::cast::<__m256d, [f64; 4]>(least)[0], bits(low) | bits(high) << 4)
+    }
+
     const LESS_OR_EQUAL: i32 = std::arch::x86_64::_CMP_LE_OQ;
+    const EQUAL: i32 = std::arch::x86_64::_CMP_EQ_OQ;
     const GREATER: i32 = std::arch::x86_64::_CMP_GT_OQ;
 
     #[inline(always)]
@@ -195,57 +291,77 @@ mod wide {
     }
 
     impl<const BENT: bool> NullaryFnOnce for Look<'_, BENT> {
-        type Output = u64;
+        type Output = Earliest;
 
         #[inline(always)]
-        fn call(self) -> u64 {
+        fn call(self) -> Earliest {
             let Look { wide, eye, records, seats, fours } = self;
             let avx = wide.avx;
-            let three = |p: DVec3| avx._mm256_set_pd(0.0, p.z, p.y, p.x);
-            let (x, v, a) = (three(eye.path.x), three(eye.path.v), three(eye.path.a));
-            let (r, zero, half) = (avx._mm256_set1_pd(eye.r), avx._mm256_set1_pd(0.0), avx._mm256_set1_pd(0.5));
-            let now = avx._mm256_set1_pd(eye.now);
+            // beside the velocities the radii: what is subtracted there is the reach, but for its sign
+            let rows = [row(wide, eye.path.x, 0.0), row(wide, eye.path.v, -eye.r), row(wide, eye.path.a, 0.0)];
+            let (now, zero) = (avx._mm256_set1_pd(eye.now), avx._mm256_set1_pd(0.0));
             let mut meet = 0;
-            for (k, (seats, four)) in seats.chunks_exact(4).zip(fours).enumerate() {
-                let lines = [0, 1, 2, 3].map(|lane| &records[seats[lane] as usize].line);
-                // x·v, x·x, v·v, not yet summed, of each of the four
-                let products = lines.map(|line| {
-                    let dt = avx._mm256_sub_pd(now, avx._mm256_set1_pd(line.t));
-                    let lx = avx._mm256_set_pd(line.t, line.x.z, line.x.y, line.x.x);
-                    let lv = avx._mm256_set_pd(line.r, line.v.z, line.v.y, line.v.x);
-                    let faster = |by| if BENT { avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, by)) } else { lv };
-                    let way = avx._mm256_mul_pd(faster(avx._mm256_mul_pd(half, dt)), dt);
-                    let x = avx._mm256_sub_pd(x, avx._mm256_add_pd(lx, way));
-                    let v = avx._mm256_sub_pd(v, faster(dt));
-                    [avx._mm256_mul_pd(x, v), avx._mm256_mul_pd(x, x), avx._mm256_mul_pd(v, v)]
-                });
-                let [b, xx, vv] = [0, 1, 2].map(|which| sums(wide, products.map(|all| all[which])));
-                let radii = avx._mm256_set_pd(lines[3].r, lines[2].r, lines[1].r, lines[0].r);
-                let reach = avx._mm256_add_pd(r, radii);
-                let b = avx._mm256_min_pd(b, zero);
-                let c = avx._mm256_sub_pd(xx, avx._mm256_mul_pd(reach, reach));
-                let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(vv, c));
+            for (k, (seats, four)) in seats.chunks_exact(4).zip(&mut fours[..]).enumerate() {
+                let [a, b, c, d] = [seats[0], seats[1], seats[2], seats[3]].map(|seat| &records[seat as usize].line);
+                let (one, two) = (apart::<BENT>(wide, rows, a, now), apart::<BENT>(wide, rows, b, now));
+                let (three, last) = (apart::<BENT>(wide, rows, c, now), apart::<BENT>(wide, rows, d, now));
+                let [x, y, z, _] = across(wide, [one.0, two.0, three.0, last.0]);
+                let [vx, vy, vz, reach] = across(wide, [one.1, two.1, three.1, last.1]);
+                let dot = |[ax, ay, az]: [__m256d; 3], [bx, by, bz]: [__m256d; 3]| {
+                    let xy = avx._mm256_add_pd(avx._mm256_mul_pd(ax, bx), avx._mm256_mul_pd(ay, by));
+                    avx._mm256_add_pd(xy, avx._mm256_mul_pd(az, bz))
+                };
+                let (x, v) = ([x, y, z], [vx, vy, vz]);
+                let b = avx._mm256_min_pd(dot(x, v), zero);
+                let c = avx._mm256_sub_pd(dot(x, x), avx._mm256_mul_pd(reach, reach));
+                let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(dot(v, v), c));
                 *four = Four { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
                 let (real, near) =
                     (avx._mm256_cmp_pd::<GREATER>(discriminant, zero), avx._mm256_cmp_pd::<GREATER>(zero, b));
                 let bits = avx._mm256_movemask_pd(avx._mm256_and_pd(real, near));
                 meet |= (bits as u64) << (4 * k);
             }
-            meet
+            earliest(meet, records, seats, fours, |four| {
+                let [b, c, discriminant] = [four.b, four.c, four.discriminant].map(pulp::cast::<[f64; 4], __m256d>);
+                let root = avx._mm256_sqrt_pd(discriminant);
+                pulp::cast(avx._mm256_add_pd(now, avx._mm256_div_pd(c, avx._mm256_sub_pd(root, b))))
+            })
         }
     }
 
-    /// x + y + z of each of four, in this order.
     #[inline(always)]
-    fn sums(wide: V3, four: [__m256d; 4]) -> __m256d {
-        let [a, b, c, d] = four;
+    fn row(wide: V3, p: DVec3, last: f64) -> __m256d {
+        wide.avx._mm256_set_pd(last, p.z, p.y, p.x)
+    }
+
+    /// Offset and relative velocity of a line from the eye's rows, at the present.
+    #[inline(always)]
+    fn apart<const BENT: bool>(wide: V3, [x, v, a]: [__m256d; 3], line: &Line, now: __m256d) -> (__m256d, __m256d) {
         let avx = wide.avx;
-        let (even, evens) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpacklo_pd(c, d));
-        let (odd, odds) = (avx._mm256_unpackhi_pd(a, b), avx._mm256_unpackhi_pd(c, d));
-        let x = avx._mm256_permute2f128_pd::<0x20>(even, evens);
-        let y = avx._mm256_permute2f128_pd::<0x20>(odd, odds);
-        let z = avx._mm256_permute2f128_pd::<0x31>(even, evens);
-        avx._mm256_add_pd(avx._mm256_add_pd(x, y), z)
+        let (lx, lv) = (row(wide, line.x, line.t), row(wide, line.v, line.r));
+        let dt = avx._mm256_sub_pd(now, avx._mm256_set1_pd(line.t));
+        let (mut mean, mut last) = (lv, lv);
+        if BENT {
+            let half = avx._mm256_mul_pd(avx._mm256_set1_pd(0.5), dt);
+            mean = avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, half));
+            last = avx._mm256_add_pd(lv, avx._mm256_mul_pd(a, dt));
+        }
+        let there = avx._mm256_add_pd(lx, avx._mm256_mul_pd(mean, dt));
+        (avx._mm256_sub_pd(x, there), avx._mm256_sub_pd(v, last))
+    }
+
+    /// Rows as columns.
+    #[inline(always)]
+    fn across(wide: V3, [a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
+        let avx = wide.avx;
+        let [low, high] = [avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b)];
+        let [lows, highs] = [avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d)];
+        [
+            avx._mm256_permute2f128_pd::<0x20>(low, lows),
+            avx._mm256_permute2f128_pd::<0x20>(high, highs),
+            avx._mm256_permute2f128_pd::<0x31>(low, lows),
+            avx._mm256_permute2f128_pd::<0x31>(high, highs),
+        ]
     }
 }
 
@@ -284,31 +400,33 @@ mod tests {
             let path = Path { x: point(), v: point(), a };
             let eye = Eye { path: &path, r: 0.5, now: 1.5 };
             let seats: Vec<u32> = (0..MOST as u32).rev().collect();
-            let (mut wide, mut plain) = ([Four::default(); MOST / 4], [Four::default(); MOST / 4]);
+            let (mut wide, mut plain) = ([Four::NEVER; FOURS], [Four::NEVER; FOURS]);
             let found = Lanes::new().look(eye, &records, &seats, &mut wide);
-            assert_eq!(found, look(eye, &records, &seats, &mut plain));
+            assert_eq!(found, Lanes::plain().look(eye, &records, &seats, &mut plain));
             assert_eq!(wide, plain);
         }
     }
 
     #[test]
     fn eight_at_once_are_judged_as_one_by_one() {
-        struct Judged(Eight);
+        struct Judged(Eight, usize, f64);
         impl Tournament for Judged {
-            type Output = (f64, u32);
-            fn run(self, judge: impl Judge) -> (f64, u32) {
-                let least = judge.least(&self.0);
-                (least, judge.equals(&self.0, least))
+            type Output = [(f64, u32); 2];
+            fn run(mut self, judge: impl Judge) -> [(f64, u32); 2] {
+                [judge.exchange(&mut self.0, self.1, self.2), judge.judge(&self.0)]
             }
         }
         let mut number = numbers();
-        for _ in 0..2000 {
+        for round in 0..2000 {
             // few different times, so that some are equal
-            let times = Eight([0; 8].map(|_| (4.0 * number()).round()));
-            let least = times.0.into_iter().fold(f64::INFINITY, f64::min);
-            let expected = (0..8).map(|k| u32::from(times.0[k] == least) << k).sum();
-            assert_eq!(Lanes::new().run(Judged(times)), (least, expected));
-            assert_eq!(Judged(times).run(Plain), (least, expected));
+            let mut few = || (4.0 * number()).round();
+            let (times, time) = (Eight([0; 8].map(|_| few())), few());
+            let mut then = times.0;
+            then[round % 8] = time;
+            let least = then.into_iter().fold(f64::INFINITY, f64::min);
+            let expected = [(least, (0..8).map(|k| u32::from(then[k] == least) << k).sum()); 2];
+            assert_eq!(Lanes::new().run(Judged(times, round % 8, time)), expected);
+            assert_eq!(Judged(times, round % 8, time).run(Plain), expected);
         }
     }
 }

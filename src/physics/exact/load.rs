@@ -1,8 +1,8 @@
 //! Contacts that exist at load: here alone does a gap of rounding's size count as touching.
 
 use super::Exact;
-use super::cells::Near;
 use super::flight::Record;
+use super::near::Near;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::touch;
 use crate::physics::detector::Detector;
@@ -48,7 +48,7 @@ impl<D: Detector> Exact<D> {
         let mut found = Vec::new();
         let mut near = Near::nobody();
         let records = &self.flight.records;
-        for Record { line, cube, sphere, .. } in records {
+        for Record { line, spot, sphere, .. } in records {
             let i = *sphere as usize;
             let slack = touching(line.r, line.x.abs().max_element());
             let mut wall = |wall: usize| {
@@ -58,7 +58,7 @@ impl<D: Detector> Exact<D> {
             };
             match &self.cells {
                 None => (0..model.faces.len()).for_each(&mut wall),
-                Some(cells) => cells.walls_near(*cube).iter().for_each(|&w| wall(w as usize)),
+                Some(cells) => cells.walls_near(*spot).iter().for_each(|&w| wall(w as usize)),
             }
             let mut pair = |seat: usize| {
                 let (j, other) = (records[seat].sphere as usize, &records[seat].line);
@@ -70,7 +70,7 @@ impl<D: Detector> Exact<D> {
             match &self.cells {
                 None => (i + 1..records.len()).for_each(&mut pair),
                 Some(cells) => {
-                    cells.around(*cube, &mut near);
+                    cells.around(*spot, &mut near);
                     near.seats().iter().for_each(|&seat| pair(seat as usize));
                 }
             }

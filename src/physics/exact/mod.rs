@@ -15,6 +15,7 @@ mod impact;
 mod islands;
 mod lanes;
 mod load;
+mod near;
 mod order;
 mod prediction;
 mod queue;
@@ -22,6 +23,7 @@ mod replay;
 mod rest;
 mod roots;
 mod scout;
+mod strike;
 
 use std::borrow::Cow;
 
@@ -30,12 +32,14 @@ use glam::DVec3;
 use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
-use cells::{Cells, Near};
+use cells::Cells;
 use chatter::Chatter;
 use flight::Flight;
 use impact::Instant;
 use islands::Rests;
 use lanes::Lanes;
+use near::Near;
+use prediction::Sort;
 use queue::Queue;
 use replay::{Origin, Replay};
 pub(super) use roots::Roots;
@@ -72,7 +76,7 @@ pub(super) struct Exact<D> {
     /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
     until: f64,
     /// Lent to whoever looks around.
-    near: Near,
+    near: Option<Box<Near>>,
     /// Crossings since the spheres were seated.
     crossings: usize,
     scout: Scout,
@@ -121,7 +125,7 @@ impl<D: Detector> Engine for Exact<D> {
             next: None,
             cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
             until: f64::INFINITY,
-            near: Near::nobody(),
+            near: Some(Box::new(Near::nobody())),
             crossings: 0,
             scout: Scout::default(),
             lanes: Lanes::new(),
@@ -247,8 +251,8 @@ impl<D: Detector> Exact<D> {
     /// One event, or the end of the frame.
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
         let (time, seat) = self.next.take().unwrap_or_else(|| self.first());
-        let rank = if time < f64::INFINITY { self.rank(time, seat) } else { (3, 0, 0) };
-        if self.rests.is_dirty() && (time > self.now || rank.0 > 1) {
+        let next = self.sort(time, seat);
+        if self.rests.is_dirty() && (time > self.now || next != Sort::Contact) {
             self.settle(model, log)?;
             return Ok(Turn::Event);
         }
@@ -263,10 +267,10 @@ impl<D: Detector> Exact<D> {
         }
         self.advance_clock(time, model.len())?;
         self.scout();
-        match rank.0 {
-            0 | 1 => self.contact(model, log, seat)?,
-            2 => self.end_parabola(model, rank.1),
-            _ => self.cross(model, seat),
+        match next {
+            Sort::Contact => self.contact(model, log, seat)?,
+            Sort::End => self.end_parabola(model, self.flight.sphere(seat)),
+            Sort::Crossing => self.cross(model, seat),
         }
         Ok(Turn::Event)
     }

@@ -1,6 +1,7 @@
 //! Who sits where: neighbours side by side, so that what an event reads lies together.
 
 use super::Exact;
+use super::cells::nearness;
 use crate::physics::detector::Detector;
 
 /// Crossings per sphere after which the spheres are seated anew: they have gone some cubes from their seats by then.
@@ -19,17 +20,17 @@ impl<D: Detector> Exact<D> {
     pub(super) fn enter_cubes(&mut self) {
         let Some(cells) = &self.cells else { return };
         for record in &mut self.flight.records {
-            record.cube = cells.cube_of(record.line.x);
+            record.spot = cells.spot(record.line.x);
         }
         self.reseat();
     }
 
-    /// Seats the spheres by their places in the table of cells.
+    /// Seats the spheres by their cubes.
     fn reseat(&mut self) {
-        let Exact { cells: Some(cells), flight, .. } = self else { return };
+        let flight = &self.flight;
         let key = |seat: usize| {
             let record = &flight.records[seat];
-            (cells.place(record.cube) as u32, record.sphere, seat as u32)
+            (nearness(record.spot.cube), record.sphere, seat as u32)
         };
         let mut order: Vec<_> = (0..flight.records.len()).map(key).collect();
         order.sort_unstable();
@@ -40,7 +41,7 @@ impl<D: Detector> Exact<D> {
     fn seat(&mut self, order: &[u32]) {
         self.flight.reseat(order);
         if let Some(cells) = &mut self.cells {
-            cells.fill(self.flight.records.iter().map(|record| record.cube));
+            cells.fill(self.flight.records.iter().map(|record| record.spot.place));
         }
         (self.crossings, self.next) = (0, None);
         for seat in 0..order.len() {

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::Exact;
-use super::cells::{Near, Way};
-use super::lanes::{Eye, MOST};
+use super::cells::Way;
+use super::lanes::{Eye, Four, MOST};
+use super::near::Near;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::{Path, straight_pair};
 use crate::physics::detector::{Detector, Due, Span};
@@ -46,6 +47,15 @@ impl Plan {
 /// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
 pub(super) type Rank = (u8, usize, usize);
 
+/// What comes next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sort {
+    Contact,
+    /// An island's parabolas end.
+    End,
+    Crossing,
+}
+
 impl<D: Detector> Exact<D> {
     /// Predicts sphere `i` afresh from the present on.
     pub(super) fn predict(&mut self, model: &Model, i: usize) {
@@ -54,6 +64,18 @@ impl<D: Detector> Exact<D> {
 
     /// The same for the sphere at a seat.
     pub(super) fn predict_at(&mut self, model: &Model, seat: usize) {
+        self.foresee(model, seat);
+        self.schedule(seat);
+    }
+
+    /// The same where the event that is handled was entered for this seat, and everything else is predicted already.
+    pub(super) fn predict_first(&mut self, model: &Model, seat: usize) {
+        self.foresee(model, seat);
+        self.schedule_first(seat);
+    }
+
+    /// Makes the plan of the sphere at a seat.
+    fn foresee(&mut self, model: &Model, seat: usize) {
         let path = self.flight.path_from(seat, self.now);
         self.until = self.rests.end_of(self.flight.sphere(seat)).next_up();
         let mut plan = Plan::IDLE;
@@ -65,7 +87,6 @@ impl<D: Detector> Exact<D> {
                 + others.map(|other| self.pair(seat, &path, other, &mut plan)).sum::<u64>()
         };
         self.flight.records[seat].plan = plan;
-        self.schedule(seat);
     }
 
     /// The sphere at a seat crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
@@ -76,10 +97,10 @@ impl<D: Detector> Exact<D> {
         let Exact { cells: Some(cells), flight, .. } = self else { return };
         let record = &mut flight.records[seat];
         let mut plan = record.plan;
-        record.cube = cells.cross(seat, record.cube, plan.way, seats);
+        record.spot = cells.cross(seat, record.spot, plan.way, seats);
         self.evaluations += self.meet_near(model, seat, &path, Some(plan.way), &mut plan);
         self.flight.records[seat].plan = plan;
-        self.schedule(seat);
+        self.schedule_first(seat);
         self.count_crossing();
     }
 
@@ -87,44 +108,69 @@ impl<D: Detector> Exact<D> {
     /// when it went `way`; and when it will leave its cube. Returns how many it looked at.
     fn meet_near(&mut self, model: &Model, seat: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
         let Some(cells) = &self.cells else { return 0 };
-        let cube = self.flight.records[seat].cube;
-        let mut near = std::mem::take(&mut self.near);
+        let spot = self.flight.records[seat].spot;
+        let Some(mut near) = self.near.take() else { return 0 };
         match way {
-            None => cells.around(cube, &mut near),
-            Some(way) => cells.ahead(cube, way, &mut near),
+            None => cells.around(spot, &mut near),
+            Some(way) => cells.ahead(spot, way, &mut near),
         }
-        let (crossing, way) = cells.crossing(cube, path);
+        let (crossing, way) = cells.crossing(spot.cube, path);
         (plan.crossing, plan.way) = (self.now + crossing, way);
-        let walls = cells.walls_near(cube).iter().map(|&wall| wall as usize);
+        let walls = cells.walls_near(spot).iter().map(|&wall| wall as usize);
         // pairs first where that is quick: what they are to meet soon spares most walls the search for edges
         let early = if D::SOLVES { self.pairs(seat, path, &mut near, plan) } else { 0 };
         let mut count = early + self.walls(model, seat, path, walls, plan);
         if !D::SOLVES {
             count += self.pairs(seat, path, &mut near, plan);
         }
-        self.near = near;
+        self.near = Some(near);
         count
     }
 
     /// Enters the earliest of a sphere's plan and its island's end into the queue.
-    #[inline]
     pub(super) fn schedule(&mut self, seat: usize) {
+        self.queue.set(seat, self.due(seat));
+        self.next = None;
+    }
+
+    /// The same where the event that is handled was entered for this seat, and everything else is entered already: then
+    /// it is known what comes next.
+    #[inline]
+    fn schedule_first(&mut self, seat: usize) {
+        self.next = self.queue.replace_first(seat, self.due(seat));
+    }
+
+    #[inline]
+    fn due(&self, seat: usize) -> f64 {
         let record = &self.flight.records[seat];
         let time = record.plan.contact.min(record.plan.crossing);
-        let led = if self.rests.is_empty() { f64::INFINITY } else { self.rests.end_led_by(record.sphere as usize) };
-        self.queue.set(seat, time.min(led));
+        if self.rests.is_empty() { time } else { time.min(self.rests.end_led_by(record.sphere as usize)) }
     }
 
     /// What the entry of a seat at `time` stands for.
     #[inline]
-    pub(super) fn rank(&self, time: f64, seat: usize) -> Rank {
+    pub(super) fn sort(&self, time: f64, seat: usize) -> Sort {
         let record = &self.flight.records[seat];
-        let i = record.sphere as usize;
-        if record.plan.contact == time {
-            let (kind, a, b) = self.key(seat, &record.plan);
-            return (if kind == Kind::Wall { 0 } else { 1 }, a, b);
+        if record.plan.contact == time && time < f64::INFINITY {
+            Sort::Contact
+        } else if !self.rests.is_empty() && self.rests.end_led_by(record.sphere as usize) == time {
+            Sort::End
+        } else {
+            Sort::Crossing
         }
-        if self.rests.end_led_by(i) == time { (2, i, 0) } else { (3, i, 0) }
+    }
+
+    /// Its place in the order of events.
+    pub(super) fn rank(&self, time: f64, seat: usize) -> Rank {
+        let (record, i) = (&self.flight.records[seat], self.flight.sphere(seat));
+        match self.sort(time, seat) {
+            Sort::Contact => {
+                let (kind, a, b) = self.key(seat, &record.plan);
+                (if kind == Kind::Wall { 0 } else { 1 }, a, b)
+            }
+            Sort::End => (2, i, 0),
+            Sort::Crossing => (3, i, 0),
+        }
     }
 
     /// Which contact a plan for a seat means.
@@ -198,46 +244,42 @@ impl<D: Detector> Exact<D> {
         near.seats().len() as u64
     }
 
-    /// Looks at pairs whose relative motion is straight. One in ten meets at all; among those the earliest is chosen
-    /// without asking, since the answers cannot be predicted.
+    /// Looks at pairs whose relative motion is straight.
     #[inline(always)]
     fn alike(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) {
         let records = &self.flight.records[..];
         let eye = Eye { path, r: records[seat].line.r, now: self.now };
         let (seats, fours) = near.padded(seat);
-        for seats in seats.chunks(MOST) {
-            let mut meet = self.lanes.look(eye, records, seats, fours);
-            let (mut first, mut with) = (f64::INFINITY, seat);
-            while meet != 0 {
-                let k = meet.trailing_zeros() as usize;
-                meet &= meet - 1;
-                let (four, lane, other) = (&fours[k / 4], k % 4, seats[k] as usize);
-                let (b, c) = (four.b[lane], four.c[lane]);
-                let time = self.now + c / (four.discriminant[lane].sqrt() - b);
-                // what the other meets before makes it look around anew, and find this one then
-                let time = if time <= records[other].plan.contact { time } else { f64::INFINITY };
-                if c <= 0.0 || time == first && time < f64::INFINITY || !self.rests.is_empty() {
-                    self.choose(seat, path, other, c, time, plan);
-                    continue;
-                }
-                with = if time < first { other } else { with };
-                first = if time < first { time } else { first };
-            }
-            if first < f64::INFINITY {
-                self.offer(seat, with, first, true, plan);
+        let mut rest = seats;
+        while !rest.is_empty() {
+            let (seats, later) = rest.split_at(rest.len().min(MOST));
+            rest = later;
+            let first = self.lanes.look(eye, records, seats, fours);
+            if first.doubtful || !self.rests.is_empty() {
+                self.choose(seat, path, seats, fours, first.meet, plan);
+            } else if first.time < f64::INFINITY {
+                self.offer(seat, first.with as usize, first.time, true, plan);
             }
         }
     }
 
-    /// A pair that takes a closer look: it overlaps by rounding, it may rest, or another meets at the same time.
+    /// Looks at the pairs with a bit in `meet` one by one: one overlaps by rounding, some may rest, or several meet at the
+    /// same time.
     #[cold]
     #[inline(never)]
-    fn choose(&self, seat: usize, path: &Path, other: usize, c: f64, time: f64, plan: &mut Plan) {
-        if c <= 0.0 {
-            // whether they approach is for the handler's own expression to say
-            self.pair(seat, path, other, plan);
-        } else if time < f64::INFINITY {
-            self.offer(seat, other, time, true, plan);
+    fn choose(&self, seat: usize, path: &Path, seats: &[u32], fours: &[Four], mut meet: u64, plan: &mut Plan) {
+        while meet != 0 {
+            let k = meet.trailing_zeros() as usize;
+            meet &= meet - 1;
+            let (four, lane, other) = (&fours[k / 4], k % 4, seats[k] as usize);
+            let (b, c) = (four.b[lane], four.c[lane]);
+            let time = self.now + c / (four.discriminant[lane].sqrt() - b);
+            if c <= 0.0 {
+                // whether they approach is for the handler's own expression to say
+                self.pair(seat, path, other, plan);
+            } else if time <= self.flight.records[other].plan.contact && time < f64::INFINITY {
+                self.offer(seat, other, time, true, plan);
+            }
         }
     }
 

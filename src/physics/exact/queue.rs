@@ -1,8 +1,9 @@
 //! The earliest event of many: a tournament of eight.
 //!
 //! Each seat has one entry, the time of its next event. Every eight entries share a winner one level up, so that a
-//! changed entry is one cache line a level and a million spheres are seven levels. Bounded memory, no rebuilding, no
-//! dependence on how event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
+//! changed entry is one cache line a level and a million spheres are seven levels. Who wins is kept beside the winner's
+//! time, so that the first of all is found without going down again. Bounded memory, no rebuilding, no dependence on how
+//! event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
 
 use super::lanes::{Eight, Judge, Lanes, Tournament};
 
@@ -12,11 +13,16 @@ const FAN: usize = 8;
 /// Levels that the indices of spheres can need: 8¹¹ > 2³².
 const MOST_LEVELS: usize = 11;
 
+/// In place of a winner: several have the same time.
+const TIED: u32 = u32::MAX;
+
 /// The next event time at each seat, s; infinite where there is none.
 #[derive(Debug, Clone)]
 pub(super) struct Queue {
     /// Leaves first, then winners of eight, up to a level of one block.
     blocks: Vec<Eight>,
+    /// Who won each entry above the leaves, block by block from the second level on.
+    winners: Vec<[u32; FAN]>,
     /// Where each level begins.
     starts: [usize; MOST_LEVELS],
     levels: usize,
@@ -34,7 +40,10 @@ impl Queue {
             width = width.div_ceil(FAN);
             total += width;
             if width == 1 {
-                return Queue { blocks: vec![Eight([f64::INFINITY; FAN]); total], starts, levels, lanes: Lanes::new() };
+                let blocks = vec![Eight([f64::INFINITY; FAN]); total];
+                let leaves = if levels > 1 { starts[1] } else { total };
+                let winners = vec![[TIED; FAN]; total - leaves];
+                return Queue { blocks, winners, starts, levels, lanes: Lanes::new() };
             }
         }
     }
@@ -42,11 +51,17 @@ impl Queue {
     /// Sets the next event at a seat to `time`, s.
     #[inline]
     pub(super) fn set(&mut self, seat: usize, time: f64) {
-        self.blocks[seat / FAN].0[seat % FAN] = time;
-        if self.levels > 1 {
-            let lanes = self.lanes;
-            lanes.run(Lift { queue: self, seat });
-        }
+        let lanes = self.lanes;
+        lanes.run(Lift::<false> { queue: self, seat, time });
+    }
+
+    /// The same for the seat of the first event, which has won all the way up: the earliest time then, and its seat if it
+    /// is the only one.
+    #[inline]
+    pub(super) fn replace_first(&mut self, seat: usize, time: f64) -> Option<(f64, usize)> {
+        let lanes = self.lanes;
+        let (time, winner) = lanes.run(Lift::<true> { queue: self, seat, time });
+        (winner != TIED).then_some((time, winner as usize))
     }
 
     /// The earliest time and its seat; among equal times the one that `before` puts first; seat 0 if nothing ever
@@ -55,25 +70,34 @@ impl Queue {
     pub(super) fn first(&self, before: impl Fn(usize, usize) -> bool) -> (f64, usize) {
         match self.lanes.run(Winner { queue: self }) {
             (f64::INFINITY, _) => (f64::INFINITY, 0),
-            (time, Some(seat)) => (time, seat),
-            (time, None) => (time, self.first_of_equals(time, before)),
+            (time, TIED) => (time, self.first_of_equals(time, before)),
+            (time, seat) => (time, seat as usize),
         }
     }
 
-    /// Lists the events until `time` (s), no more than `most` or little more.
-    pub(super) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>) {
-        self.collect(self.levels - 1, 0, time, most, list);
-    }
-
-    fn collect(&self, level: usize, block: usize, until: f64, most: usize, list: &mut Vec<(f64, u32)>) {
-        for (k, &time) in self.blocks[self.starts[level] + block].0.iter().enumerate() {
-            if time <= until && list.len() < most {
-                let place = block * FAN + k;
-                match level {
-                    0 => list.push((time, place as u32)),
-                    _ => self.collect(level - 1, place, until, most, list),
+    /// Lists the events until `time` (s), no more than `most` or little more, level by level: what the next one will read
+    /// is asked for meanwhile. `blocks` is lent.
+    pub(super) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>, blocks: &mut [Vec<u32>; 2]) {
+        let [above, below] = blocks;
+        above.clear();
+        above.push(0);
+        for level in (0..self.levels).rev() {
+            below.clear();
+            for &block in above.iter().take(most) {
+                for (k, &entry) in self.blocks[self.starts[level] + block as usize].0.iter().enumerate() {
+                    if entry <= time {
+                        let place = block * FAN as u32 + k as u32;
+                        match level {
+                            0 => list.push((entry, place)),
+                            _ => {
+                                self.lanes.fetch(&self.blocks[self.starts[level - 1] + place as usize]);
+                                below.push(place);
+                            }
+                        }
+                    }
                 }
             }
+            std::mem::swap(above, below);
         }
     }
 
@@ -107,27 +131,44 @@ impl Queue {
     }
 }
 
-/// An entry has changed: the winners above it are found anew, up to the first that stays.
-struct Lift<'a> {
+/// An entry changes: the winners above it are found anew, all of them or up to the first that stays.
+struct Lift<'a, const ALL: bool> {
     queue: &'a mut Queue,
     seat: usize,
+    /// The new time, s.
+    time: f64,
 }
 
-impl Tournament for Lift<'_> {
-    type Output = ();
+impl<const ALL: bool> Tournament for Lift<'_, ALL> {
+    /// The earliest time and its seat, if all were found anew.
+    type Output = (f64, u32);
 
     #[inline(always)]
-    fn run(self, judge: impl Judge) {
-        let Queue { blocks, starts, levels, .. } = self.queue;
-        let mut place = self.seat / FAN;
-        for level in 1..*levels {
-            let winner = judge.least(&blocks[starts[level - 1] + place]);
-            let entry = &mut blocks[starts[level] + place / FAN].0[place % FAN];
-            if *entry == winner {
-                return;
-            }
-            *entry = winner;
+    fn run(self, judge: impl Judge) -> (f64, u32) {
+        let Lift { queue: Queue { blocks, winners, starts, levels, .. }, seat, mut time } = self;
+        let (leaves, mut place) = (starts[1], seat);
+        let mut level = 0;
+        loop {
+            let block = starts[level] + place / FAN;
+            let (least, equal) = judge.exchange(&mut blocks[block], place % FAN, time);
+            let first = equal.trailing_zeros();
+            let entered = if level == 0 {
+                (place - place % FAN) as u32 + first
+            } else {
+                winners[block - leaves][first as usize % FAN]
+            };
+            let winner = if equal & equal.wrapping_sub(1) != 0 { TIED } else { entered };
             place /= FAN;
+            level += 1;
+            if level == *levels {
+                return (least, winner);
+            }
+            let above = starts[level] + place / FAN;
+            let entry = &mut winners[above - leaves][place % FAN];
+            if !ALL && (*entry == winner) & (blocks[above].0[place % FAN] == least) {
+                return (least, TIED);
+            }
+            (*entry, time) = (winner, least);
         }
     }
 }
@@ -138,21 +179,20 @@ struct Winner<'a> {
 }
 
 impl Tournament for Winner<'_> {
-    type Output = (f64, Option<usize>);
+    type Output = (f64, u32);
 
     #[inline(always)]
-    fn run(self, judge: impl Judge) -> (f64, Option<usize>) {
-        let Queue { blocks, starts, levels, .. } = self.queue;
-        let time = judge.least(&blocks[starts[levels - 1]]);
-        let mut place = 0;
-        for level in (0..*levels).rev() {
-            let equal = judge.equals(&blocks[starts[level] + place], time);
-            if equal & equal.wrapping_sub(1) != 0 {
-                return (time, None);
-            }
-            place = place * FAN + equal.trailing_zeros() as usize;
-        }
-        (time, Some(place))
+    fn run(self, judge: impl Judge) -> (f64, u32) {
+        let Queue { blocks, winners, .. } = self.queue;
+        let Some(root) = blocks.last() else { return (f64::INFINITY, TIED) };
+        let (time, equal) = judge.judge(root);
+        let first = equal.trailing_zeros();
+        let winner = match winners.last() {
+            _ if equal & equal.wrapping_sub(1) != 0 => TIED,
+            Some(winners) => winners[first as usize % FAN],
+            None => first,
+        };
+        (time, winner)
     }
 }
 
@@ -170,7 +210,13 @@ mod tests {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let (i, time) = ((seed >> 33) as usize % count, ((seed >> 20) % 512) as f64);
             times[i] = time;
-            queue.set(i, time);
+            let first = queue.first(|a, b| a > b);
+            if first.1 == i {
+                let found = queue.replace_first(i, time);
+                assert!(found.is_none_or(|found| found == queue.first(|a, b| a > b)));
+            } else {
+                queue.set(i, time);
+            }
             // ties go to the larger index here, to see that the order is the caller's
             let expected = (0..count).rev().min_by(|&a, &b| times[a].total_cmp(&times[b])).expect("not empty");
             let found = queue.first(|a, b| a > b);

@@ -6,7 +6,9 @@
 //! decides when memory is read, and nothing else.
 
 use super::Exact;
-use super::cells::Near;
+use super::cells::{Cells, Spot, Way};
+use super::flight::Record;
+use super::near::Near;
 use crate::physics::Kind;
 use crate::physics::detector::Detector;
 
@@ -30,7 +32,24 @@ pub(super) struct Scout {
     at: usize,
     /// How far it should reach, s.
     span: f64,
-    near: Near,
+    near: Option<Box<Near>>,
+    /// Lent to whoever looks into the queue.
+    blocks: [Vec<u32>; 2],
+}
+
+/// Whether a sphere crosses into another cube before it meets anybody.
+fn crosses(record: &Record) -> bool {
+    record.plan.crossing < record.plan.contact
+}
+
+/// Where a sphere will look around.
+fn next_spot(cells: &Cells, record: &Record) -> Spot {
+    if crosses(record) { cells.beyond(record.spot, record.plan.way) } else { record.spot }
+}
+
+/// The seat of the sphere that it meets, if that comes first.
+fn partner(record: &Record) -> Option<usize> {
+    (!crosses(record) && record.plan.kind == Kind::Pair).then_some(record.plan.other as usize)
 }
 
 impl<D: Detector> Exact<D> {
@@ -49,45 +68,48 @@ impl<D: Detector> Exact<D> {
         }
         let Exact { cells: Some(cells), flight, scout: Scout { list, at, near, .. }, lanes, .. } = self else { return };
         let records = &flight.records[..];
+        let near = near.get_or_insert_with(|| Box::new(Near::nobody()));
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
         if let Some(record) = due(PLACES) {
-            cells.fetch_around(record.cube, *lanes);
-            if record.plan.kind == Kind::Pair {
-                let partner = &records[record.plan.other as usize];
-                lanes.fetch(&partner.line);
-                lanes.fetch(&partner.plan);
-                self.queue.fetch(record.plan.other as usize);
+            cells.fetch_around(next_spot(cells, record), *lanes);
+            if let Some(other) = partner(record) {
+                lanes.fetch(&records[other].line);
+                lanes.fetch(&records[other].plan);
+                self.queue.fetch(other);
             }
         }
-        let mut lines = |cube| {
-            cells.around(cube, near);
+        let mut lines = |spot, way| {
+            match way {
+                None => cells.around(spot, near),
+                Some(way) => cells.ahead(spot, way, near),
+            }
             near.seats().iter().for_each(|&seat| lanes.fetch(&records[seat as usize].line));
         };
         if let Some(record) = due(LINES) {
-            lines(record.cube);
-            flight.fetch_seat(record.sphere as usize, *lanes);
-            if record.plan.kind == Kind::Pair {
-                let partner = &records[record.plan.other as usize];
-                cells.fetch_around(partner.cube, *lanes);
-                flight.fetch_seat(partner.sphere as usize, *lanes);
+            lines(next_spot(cells, record), crosses(record).then_some(record.plan.way));
+            if let Some(other) = partner(record) {
+                cells.fetch_around(records[other].spot, *lanes);
             }
         }
         if let Some(record) = due(PARTNER)
-            && record.plan.kind == Kind::Pair
-            && record.plan.contact <= record.plan.crossing
+            && let Some(other) = partner(record)
         {
-            lines(records[record.plan.other as usize].cube);
+            // what is around both has been asked for: it is the layers on the partner's side that are missing
+            let spot = records[other].spot;
+            for axis in 0..3 {
+                let step = spot.cube[axis] - record.spot.cube[axis];
+                if step != 0 {
+                    lines(spot, Some(Way { axis: axis as u8, sign: step.signum() as i8 }));
+                }
+            }
         }
     }
 
     fn list_events(&mut self) {
-        let Exact { scout: Scout { list, at, span, near }, .. } = self;
-        if near.seats().is_empty() {
-            *near = Near::nobody();
-        }
+        let Exact { scout: Scout { list, at, span, blocks, .. }, .. } = self;
         list.clear();
         *at = 0;
-        self.queue.until(self.now + *span, 4 * LISTED, list);
+        self.queue.until(self.now + *span, 4 * LISTED, list, blocks);
         list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         if list.len() < LISTED {
             *span = 1.25 * *span + f64::EPSILON * self.now.abs() + f64::MIN_POSITIVE;

@@ -1,0 +1,46 @@
+//! Who is near a sphere.
+
+use super::lanes::{FOURS, Four};
+
+/// What the 27 places around a sphere hold without spilling is fewer than this.
+pub(super) const MOST_NEAR: usize = 128;
+
+/// Room for it, one more place and padding to four.
+pub(super) const ROOM: usize = MOST_NEAR + 8;
+
+/// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
+#[derive(Debug, Clone)]
+pub(super) struct Near {
+    pub(super) seats: Vec<u32>,
+    pub(super) count: usize,
+    /// Room to look at them four by four.
+    pub(super) fours: Box<[Four; FOURS]>,
+}
+
+impl Near {
+    /// Nobody.
+    pub(super) fn nobody() -> Near {
+        Near { seats: vec![0; ROOM], count: 0, fours: Box::new([Four::NEVER; FOURS]) }
+    }
+
+    /// Who is near.
+    #[inline]
+    pub(super) fn seats(&self) -> &[u32] {
+        &self.seats[..self.count]
+    }
+
+    /// The same made up to fours by `seat`, and the room to look at them.
+    #[inline]
+    pub(super) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four; FOURS]) {
+        self.seats[self.count..self.count + 4].fill(seat as u32);
+        (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
+    }
+
+    pub(super) fn push(&mut self, seat: u32) {
+        self.seats[self.count] = seat;
+        self.count += 1;
+        if self.count + 5 > self.seats.len() {
+            self.seats.resize(2 * self.seats.len(), 0);
+        }
+    }
+}
