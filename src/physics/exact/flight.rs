@@ -4,8 +4,9 @@
 //! until the next one, so that a state within the frame can be read.
 //!
 //! What an event needs of a sphere is one record of two cache lines. Records may lie in another order than the scene's,
-//! neighbours in space side by side: sphere i has the seat s. All that decides anything goes by i, so that no result
-//! depends on where anybody sits; only who walks through neighbours goes by seats.
+//! neighbours in space side by side: sphere i has the seat s. All that decides anything goes by i; only who walks through
+//! neighbours goes by seats, and finds the same, but for the last digit of searches that what was found first cuts short
+//! (`swept`, and pairs with different accelerations). Seats follow from the run alone, so that its bits do too.
 
 use glam::DVec3;
 

@@ -8,7 +8,7 @@ use crate::physics::detector::Detector;
 const CROSSINGS: usize = 3;
 
 impl<D: Detector> Exact<D> {
-    /// Counts a crossing, and seats the spheres anew when there were many. No result depends on it.
+    /// Counts a crossing, and seats the spheres anew when there were many: when, follows from the run alone.
     pub(super) fn count_crossing(&mut self) {
         self.crossings += 1;
         if self.crossings > CROSSINGS * self.flight.records.len() {
