@@ -16,6 +16,9 @@ pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// What velocities are scaled up by where their squares would underflow: an even power of two, so that it rounds nothing.
 const HUGE: f64 = f64::from_bits((1023 + 900) << 52);
 
+/// Numbers below this have lost digits, or lose them in the next product: they count as 0.
+const FAINTEST: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// A row in local indices.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LocalRow {
@@ -43,8 +46,12 @@ impl Problem {
             let row = rows[index];
             LocalRow { a: local(row.a), b: row.b.map(local), normal: row.normal, offset: row.offset }
         });
+        let seen = |body: usize| {
+            let faint = |part: f64| if part.abs() < FAINTEST { 0.0 } else { part };
+            DVec3::from_array(free[body].to_array().map(faint))
+        };
         let sum = |scale: f64| -> f64 {
-            island.bodies.iter().map(|&body| (free[body] * scale).length_squared() / inverse_mass[body]).sum()
+            island.bodies.iter().map(|&body| (seen(body) * scale).length_squared() / inverse_mass[body]).sum()
         };
         let weight = match sum(1.0) {
             // velocities that a collapse has left may be too small for f64 to square
@@ -54,7 +61,7 @@ impl Problem {
         Problem {
             rows: rows.collect(),
             inverse_mass: island.bodies.iter().map(|&body| inverse_mass[body]).collect(),
-            free: island.bodies.iter().map(|&body| free[body]).collect(),
+            free: island.bodies.iter().map(|&body| seen(body)).collect(),
             weight,
         }
     }
