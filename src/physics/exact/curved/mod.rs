@@ -18,7 +18,7 @@ use glam::DVec3;
 
 pub(super) use motion::geometry;
 use motion::{Motion, loaded};
-use polynomial::{Polynomial, cube_root, last_change};
+use polynomial::{Polynomial, cube_root, fall_below_zero};
 
 use crate::physics::contact_time::{Part, edge_direction, touch_part};
 use crate::physics::model::Face;
@@ -242,7 +242,7 @@ impl Arc {
         for share in looks {
             let look = (share * self.span, margin(share * self.span));
             if look.1 < 0.0 {
-                let change = last_change(&margin, good, look, 0.25 * OVERSHOOT * self.span);
+                let change = fall_below_zero(&margin, good, look, 0.25 * OVERSHOOT * self.span);
                 self.length = (change + OVERSHOOT * self.span).min(self.span);
                 self.changes = true;
                 return;

@@ -30,7 +30,7 @@ impl Polynomial {
 /// The end of an interval no longer than `precision` in which `margin` falls below 0: between a time at which it is not
 /// and a later one at which it is, each with its margin. By the rule of false position, halved where that creeps
 /// (the Illinois method; Dowell, Jarratt, BIT 11, 168, 1971), and by bisection if that takes long.
-pub(super) fn last_change(margin: &impl Fn(f64) -> f64, good: (f64, f64), bad: (f64, f64), precision: f64) -> f64 {
+pub(super) fn fall_below_zero(margin: &impl Fn(f64) -> f64, good: (f64, f64), bad: (f64, f64), precision: f64) -> f64 {
     let ((mut from, mut above), (mut to, mut below)) = (good, bad);
     let mut side = 0;
     for count in 0..80 {
@@ -54,7 +54,8 @@ pub(super) fn last_change(margin: &impl Fn(f64) -> f64, good: (f64, f64), bad: (
     to
 }
 
-/// ∛y for y ≥ 0 (∞ of ∞), by Newton's method from above: with + − × ÷ alone, the same on every machine.
+/// ∛y for y ≥ 0 (∞ of ∞; 0 of what is too small for all its digits), by Newton's method from above: with + − × ÷ alone,
+/// the same on every machine.
 pub(super) fn cube_root(y: f64) -> f64 {
     if !(y >= f64::MIN_POSITIVE && y.is_finite()) {
         return if y < f64::MIN_POSITIVE { 0.0 } else { y };
@@ -83,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_change_is_where_the_margin_falls_below_zero() {
+    fn the_fall_is_found_where_the_margin_turns_negative() {
         // A corner, as where one contact takes over from another, a root of high order, and one next to an end.
         let margins: [(&dyn Fn(f64) -> f64, f64); 4] = [
             (&|t| (0.3 - t).min(5.0 * (0.25 - t)), 0.25),
@@ -92,7 +93,7 @@ mod tests {
             (&|t| if t < 0.5 { 1.0 } else { -1e9 }, 0.5),
         ];
         for (margin, expected) in margins {
-            let found = last_change(&margin, (0.0, margin(0.0)), (1.0, margin(1.0)), 1e-11);
+            let found = fall_below_zero(&margin, (0.0, margin(0.0)), (1.0, margin(1.0)), 1e-11);
             assert!(margin(found) < 0.0 && (found - expected).abs() <= 1e-11, "{found} instead of {expected}");
         }
     }
