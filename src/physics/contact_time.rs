@@ -331,11 +331,27 @@ impl Search<'_> {
             let t = quadratic_fall([side * height[0] - self.r, side * height[1], side * height[2]]);
             best.take(t.filter(|&t| t < best.time).and_then(|t| self.verified(t)));
         }
+        for t in self.entries(height, best.time) {
+            best.take(self.verified(t));
+        }
         let (stays, count) = self.stays(height, best.time);
         for &[from, to] in &stays[..count] {
             self.outline(from, to, &mut best);
         }
         best.found
+    }
+
+    /// When the foot of the centre comes on to the face while the gap to its plane is 0 to rounding: where a sphere that
+    /// has passed over the edge without an approach begins to sink into the face beyond it. Only times before `end`
+    /// (s) matter.
+    fn entries(&self, height: [f64; 3], end: f64) -> impl Iterator<Item = f64> {
+        let Path { x, v, a } = *self.path;
+        let foot = x - self.face.shape.center;
+        let touches = move |t: f64| (value(&height, t).abs() - self.r).abs() <= self.rounding(t);
+        let [d1, d2] = [self.face.dual1, self.face.dual2];
+        let outwards = [d1, -d1, d2, -d2].into_iter().filter(move |out| foot.dot(*out) > 0.5);
+        let enters = move |out: DVec3| quadratic_fall([foot.dot(out) - 0.5, v.dot(out), 0.5 * a.dot(out)]);
+        outwards.filter_map(enters).filter(move |&t| t < end && touches(t))
     }
 
     /// When the centre is within reach of the plane, before `end`: edges and corners need looking at only then.

@@ -49,13 +49,19 @@ pub(in crate::physics) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
     borders(face, part).map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
 }
 
-/// When a centre on `path`, in touch with `part` of a wall, comes to where another part takes over, s from now: the first
-/// time at which it is on the border or beyond and moving outwards, so that a start on the border does not count as an
-/// end unless it leads out. Only times below `before` (s) matter.
-pub(in crate::physics) fn part_end(face: &Face, part: Part, path: &Path, before: f64) -> Option<f64> {
+/// How far beyond its border a contact belongs to the next part, in radii or coordinates, whichever are larger: more than
+/// rounding, so that a sphere that slides along a border does not change its part for ever, and less than matters, since
+/// the distances to two parts differ by half its square.
+pub(in crate::physics) const BORDER: f64 = 1e-12;
+
+/// When a sphere of radius `r` (m) on `path`, in touch with `part` of a wall, comes to where another part takes over, s
+/// from now: the first time at which it is beyond the border by [`BORDER`] and moving outwards. Only times below `before`
+/// (s) matter.
+pub(in crate::physics) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64) -> Option<f64> {
+    let beyond = BORDER * path.x.abs().max_element().max(r);
     let end = |border: Border| {
         let n = border.inward;
-        quadratic_fall([n.dot(path.x - border.at), n.dot(path.v), 0.5 * n.dot(path.a)])
+        quadratic_fall([n.dot(path.x - border.at) + beyond, n.dot(path.v), 0.5 * n.dot(path.a)])
     };
     borders(face, part).filter_map(end).filter(|&t| t < before).reduce(f64::min)
 }

@@ -22,7 +22,7 @@ use polynomial::{Polynomial, cube_root, fall_below_zero};
 
 use crate::physics::contact_time::{Part, edge_direction, touch_part};
 use crate::physics::model::Face;
-use crate::physics::parts::room;
+use crate::physics::parts::{BORDER, room};
 use crate::physics::support::{Bodies, Resting, Row, Surface, accelerations, bind};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
@@ -48,6 +48,11 @@ const BEGINNING: f64 = 1e-3;
 /// Length of the longest, in the same units: however straight it is, its loads must not change behind our back.
 const LONGEST: f64 = 0.2;
 
+/// Length, in the same units, of an arc that is not halved any more: its polynomial is off by the sixth power of that,
+/// and what is still found beyond is the rounding of the contacts' own equations. Two edges of a narrow crack hold a
+/// sphere across it to no better than rounding over the angle between their normals.
+const SHORT: f64 = 1e-3;
+
 /// Fractions of an arc at which its end conditions are looked at: a load that dips below 0 between two of them and comes
 /// back would have to vary faster than the arc was chosen for.
 const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
@@ -55,9 +60,6 @@ const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// By how much of the arc a change is overshot, so that it shows beyond rounding: a load of 1e-10 of what it varies by
 /// during the arc, some 1e-12 s late.
 const OVERSHOOT: f64 = 1e-10;
-
-/// How far beyond its border a contact belongs to the next part, in radii: more than rounding, less than matters.
-const BORDER: f64 = 1e-12;
 
 /// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
 /// rounding, and less than moves anything by 1e-14 m during an arc.
@@ -170,7 +172,7 @@ impl Arc {
             let middle = motion.moved(&arc.start.bodies, 0.5 * span);
             let growth = cube_root(arc.allowance(&middle).sqrt());
             arc.next = span * (0.8 * growth).min(2.0);
-            if growth >= 1.0 {
+            if growth >= 1.0 || span <= SHORT * scale {
                 arc.cut_short(&motion, &LOOKS);
                 return arc;
             }

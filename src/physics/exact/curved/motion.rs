@@ -89,13 +89,15 @@ impl<'a> Motion<'a> {
         Marks { rooms: self.rooms(bodies), openings: self.openings(bodies, &self.accelerations(bodies).0) }
     }
 
-    /// How far each holding contact is from where another part of its wall takes over, in radii; ∞ for pairs.
+    /// Distance of each contact, holding ones before idle ones, from where another part of its wall takes over, in radii;
+    /// ∞ for pairs. An idle contact counts too: on the edge that two walls share, the one that carries nothing takes over
+    /// when the sphere rolls on to its face.
     pub(super) fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
         let of = |contact: &Closed| match contact.on {
             On::Wall(face, part) => room(face, part, bodies[contact.a].x) / bodies[contact.a].r,
             On::Body(_) => f64::INFINITY,
         };
-        self.holding.iter().map(of).collect()
+        self.holding.iter().chain(&self.idle).map(of).collect()
     }
 
     /// J a + k of the idle contacts, in units of the applied acceleration.

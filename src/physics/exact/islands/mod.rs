@@ -12,7 +12,7 @@ use super::flight::Flight;
 use super::impact::{Meeting, ZENO};
 use super::rest::{Settled, settle};
 use crate::physics::contact::Key;
-use crate::physics::contact_time::Part;
+use crate::physics::contact_time::{Part, Touch, touch, touch_part};
 use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::parts::{part_ahead, part_end};

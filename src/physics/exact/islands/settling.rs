@@ -1,10 +1,18 @@
 //! What an event does to the islands: spheres brought up to date, contacts released, islands settled anew.
 
 use super::*;
+use crate::physics::exact::rest::ROUNDING;
 
 /// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
 /// part by more than rounding, too short to be seen.
 const PAUSE: f64 = 1e-7;
+
+/// Contacts of one sphere are at one point if no farther apart than this, in radii: between rounding, and an angle at
+/// which the approach to the second wall shows before it overlaps.
+const SHARED_POINT: f64 = 1e-8;
+
+/// Gap to a wall at such a point that counts as none, relative to the coordinates: 64 ulp.
+const SHARED_GAP: f64 = 64.0 * f64::EPSILON;
 
 impl<D: Detector> Exact<D> {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
@@ -119,6 +127,9 @@ impl<D: Detector> Exact<D> {
         for &i in &spheres {
             self.rests.dissolve(i, self.now);
         }
+        for &i in &spheres {
+            self.add_walls_at_point(model, i);
+        }
         let keys: BTreeSet<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
         let mut open: Vec<Vec<Key>> = vec![keys.into_iter().collect()];
         while let Some(keys) = open.pop() {
@@ -136,6 +147,41 @@ impl<D: Detector> Exact<D> {
         }
         self.moved(model, &spheres);
         Ok(())
+    }
+
+    /// Adds the walls that share a resting contact's point with its wall: the tile beyond a seam, the slope beyond a
+    /// ridge. Their gap and its rate of change are 0 then, so that no approach announces them; unless they belong to the
+    /// island when the closest point moves on to them, the sphere would sink in.
+    fn add_walls_at_point(&mut self, model: &Model, i: usize) {
+        if !self.rests.of[i].iter().any(|key| key.0 == Kind::Wall) {
+            return;
+        }
+        let path = self.flight.path(i, self.now);
+        let r = model.radii[i];
+        let shared = |wall: usize, part: Part| touch_part(&model.faces[wall], part, path.x, r);
+        let held: Vec<(usize, Touch)> = (self.rests.of[i].iter().filter(|key| key.0 == Kind::Wall))
+            .filter_map(|key| Some((key.2, shared(key.2, self.rests.held.get(key)?.part))))
+            .collect();
+        let size = path.x.abs().max_element().max(r);
+        let open = held.iter().map(|(_, at)| at.gap).fold(0.0, f64::max);
+        let most = open + SHARED_GAP * size;
+        for wall in 0..model.faces.len() {
+            if held.iter().any(|&(other, _)| other == wall) {
+                continue;
+            }
+            let at = touch(&model.faces[wall], path.x, r);
+            let near = |(_, held): &(usize, Touch)| {
+                held.point.distance_squared(at.point) <= (SHARED_POINT * r) * (SHARED_POINT * r)
+            };
+            if at.gap > most || !held.iter().any(near) {
+                continue;
+            }
+            let meeting = self.seen(model, (Kind::Wall, i, wall), self.now);
+            let pull = model.acceleration(i).length();
+            if meeting.v_n.abs() <= ROUNDING * path.v.length() || meeting.hops_within_rounding(pull) {
+                self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
+            }
+        }
     }
 
     /// The connected sets of some contacts.
@@ -235,7 +281,8 @@ impl<D: Detector> Exact<D> {
         for contact in contacts {
             if let Other::Wall(wall, part) = contact.other {
                 let path = self.flight.path(spheres[contact.a], self.now);
-                if let Some(t) = part_end(&model.faces[wall], part, &path, first) {
+                let r = model.radii[spheres[contact.a]];
+                if let Some(t) = part_end(&model.faces[wall], part, &path, r, first) {
                     first = first.min(t);
                 }
             }
