@@ -49,19 +49,20 @@ pub(in crate::physics) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
     borders(face, part).map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
 }
 
-/// How far beyond its border a contact belongs to the next part, in radii or coordinates, whichever are larger: more than
-/// rounding, so that a sphere that slides along a border does not change its part for ever, and less than matters, since
-/// the distances to two parts differ by half its square.
+/// How far beyond a border at which it begins a contact belongs to the next part, in radii or coordinates, whichever are
+/// larger: more than rounding, so that a sphere that slides along a border does not change its part for ever, and less
+/// than matters, since the distances to two parts differ by half its square.
 pub(in crate::physics) const BORDER: f64 = 1e-12;
 
 /// When a sphere of radius `r` (m) on `path`, in touch with `part` of a wall, comes to where another part takes over, s
-/// from now: the first time at which it is beyond the border by [`BORDER`] and moving outwards. Only times below `before`
-/// (s) matter.
+/// from now: the first time at which it is on the border and moving outwards; if it begins there, or beyond, the first time
+/// at which it is [`BORDER`] beyond. Only times below `before` (s) matter.
 pub(in crate::physics) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64) -> Option<f64> {
-    let beyond = BORDER * path.x.abs().max_element().max(r);
+    let least = BORDER * path.x.abs().max_element().max(r);
     let end = |border: Border| {
-        let n = border.inward;
-        quadratic_fall([n.dot(path.x - border.at) + beyond, n.dot(path.v), 0.5 * n.dot(path.a)])
+        let (n, room) = (border.inward, border.inward.dot(path.x - border.at));
+        let room = if room > least { room } else { room + least };
+        quadratic_fall([room, n.dot(path.v), 0.5 * n.dot(path.a)])
     };
     borders(face, part).filter_map(end).filter(|&t| t < before).reduce(f64::min)
 }
@@ -133,7 +134,7 @@ mod tests {
         for x in grid().step_by(7) {
             let path = Path { x, v: (face.shape.center - x) * 0.5 + DVec3::new(0.3, -0.2, 0.7), a: DVec3::NEG_Y };
             let part = touch(&face, x, 0.5).part;
-            let Some(t) = part_end(&face, part, &path, 10.0) else { continue };
+            let Some(t) = part_end(&face, part, &path, 0.5, 10.0) else { continue };
             ends += 1;
             // Coordinates of some tens of metres.
             assert!(room(&face, part, path.at(t)).abs() < 1e-12);
@@ -149,7 +150,7 @@ mod tests {
         let face = skewed();
         let on_border = face.shape.corners()[1] * 0.5 + face.shape.corners()[2] * 0.5;
         let path = Path { x: on_border + face.normal * 0.5, v: face.shape.center - on_border, a: DVec3::ZERO };
-        let t = part_end(&face, Part::Face, &path, 100.0).expect("it leaves on the other side");
+        let t = part_end(&face, Part::Face, &path, 0.5, 100.0).expect("it leaves on the other side");
         assert!((t - 2.0).abs() < 1e-14, "{t}");
         assert_eq!(part_ahead(&face, path.x, path.v, path.a, 0.5), Part::Face);
         assert_eq!(part_ahead(&face, path.x, -path.v, path.a, 0.5), Part::Edge(1));
