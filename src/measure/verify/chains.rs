@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::bodies::{ELASTIC, exact, scene, sphere, wall};
+use super::bodies::{ELASTIC, exact, scene, smooth, sphere, wall};
 use super::{Check, Lab, Row, Trouble};
 use crate::physics::State;
 use crate::scene::Sphere;
@@ -15,6 +15,14 @@ pub(super) const DIGITS: Check = Check {
              375, 2003)",
     allowed: "none: a count",
     measure: digits,
+};
+
+pub(super) const SQUEEZE: Check = Check {
+    title: "squeeze",
+    source: "the impact law, blow by blow: between a wall and a heavy ball a light one is struck thousands of times at \
+             one place, and sends the heavy one back",
+    allowed: "each of some ten thousand blows rounds twice",
+    measure: squeeze,
 };
 
 pub(super) const CRADLE: Check = Check {
@@ -41,6 +49,30 @@ fn count(lab: &Lab, k: i32) -> Result<Row, Trouble> {
     lab.go(&mut run, 100.0)?;
     let found = run.tallies().impacts as f64;
     Ok(Row::new(format!("impacts, masses 1 : 100^{k}"), "", [(PI * 10_f64.powi(k)).floor(), found], 0.0))
+}
+
+fn squeeze(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+    let row = |(e, heavy): (f64, f64)| {
+        let stop = wall(DVec3::ZERO, DVec3::Y * 10.0, DVec3::Z * 10.0);
+        let balls = vec![ball(0.5, 0.0, 1.0), ball(4.0, -1.0, heavy)];
+        let state = lab.go(&mut exact(&scene(DVec3::ZERO, smooth(e), vec![stop], balls)), 4.0)?;
+        Ok(Row::new(format!("heavy out, e = {e}"), "m/s", [blow_by_blow(e, heavy), state.v[1].x], 1e-11))
+    };
+    [(0.99999, 1e7), (0.999, 1e4)].into_iter().map(row).collect()
+}
+
+/// Speed (m/s) at which a ball of `heavy` kg leaves that comes in at 1 m/s, with one of 1 kg between it and a wall.
+fn blow_by_blow(e: f64, heavy: f64) -> f64 {
+    let (mut light, mut v) = (0.0, -1.0);
+    while light > v || light < 0.0 {
+        if light < 0.0 {
+            light *= -e;
+        } else {
+            let push = (1.0 + e) * (light - v) / (1.0 + 1.0 / heavy);
+            (light, v) = (light - push, v + push / heavy);
+        }
+    }
+    v
 }
 
 /// Balls in the cradle.

@@ -17,6 +17,7 @@ mod chains;
 mod cooling;
 mod gas;
 mod golden;
+mod joints;
 mod lab;
 mod mixture;
 mod pressure;
@@ -48,7 +49,9 @@ pub struct Check {
 /// Every family, in the order in which they are told.
 pub const CHECKS: &[Check] = &[
     bounces::CHECK,
+    bounces::RUBBED,
     chains::DIGITS,
+    chains::SQUEEZE,
     chains::CRADLE,
     pressure::CHECK,
     cooling::CHECK,
@@ -58,6 +61,9 @@ pub const CHECKS: &[Check] = &[
     steps::TUNNELLING,
     reversal::CHECK,
     rest::CHECK,
+    joints::RIDGE,
+    joints::TILES,
+    joints::FUNNEL,
     golden::CHECK,
 ];
 
@@ -128,14 +134,22 @@ mod tests {
     #[test]
     fn whatever_pairs_decide_fails_if_they_lose_a_hundredth_more() {
         // In neither scene of the time reversal do spheres meet before it turns.
-        let expected = ["Galperin's billiard", "Newton's cradle", "hard spheres", "Haff's law", "golden hashes"];
+        let expected =
+            ["Galperin's billiard", "squeeze", "Newton's cradle", "hard spheres", "Haff's law", "golden hashes"];
         assert_eq!(failing(0.99, 1.0, &["equipartition"]), expected);
     }
 
     #[test]
     fn whatever_walls_decide_fails_if_they_take_a_hundredth_more() {
-        let expected =
-            ["bouncing ball", "Galperin's billiard", "order in the tolerance", "time reversal", "golden hashes"];
+        let expected = [
+            "bouncing ball",
+            "rubbing ball",
+            "Galperin's billiard",
+            "squeeze",
+            "order in the tolerance",
+            "time reversal",
+            "golden hashes",
+        ];
         assert_eq!(failing(1.0, 0.99, &GASES), expected);
     }
 
