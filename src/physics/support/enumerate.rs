@@ -20,12 +20,22 @@ pub(super) const LIMIT: usize = 8;
 /// Most contacts for which they are tried if nothing else finds an answer (43 745 sets at 64).
 pub(super) const LAST_RESORT: usize = 64;
 
+/// Pushes in units of u₀ from which on they are computed closely: they have lost four digits.
+const SQUEEZED: f64 = 1e4;
+
 /// A set of contacts that might carry the body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) u: DVec3,
     /// Row and m λ; a row may stand several times.
     pub(super) pushes: [(usize, f64); 3],
+}
+
+impl Candidate {
+    /// Whether the contacts push so much harder than u₀ asks that plain formulas have lost digits of the pushes.
+    fn squeezes(&self, problem: &Problem) -> bool {
+        self.pushes.iter().any(|(_, push)| push.abs() > SQUEEZED * problem.free[0].length())
+    }
 }
 
 /// Multipliers and u of a problem of one body.
@@ -35,10 +45,10 @@ pub(super) struct Candidate {
 pub(super) fn solve(problem: &Problem) -> (Vec<f64>, DVec3, usize) {
     let (plain, tried) = best(problem, &|set| candidate(problem, set));
     let (found, tried) = match plain {
-        Some((_, violation)) if violation <= 1.0 => (plain, tried),
+        Some((found, violation)) if violation <= 1.0 && !found.squeezes(problem) => (plain, tried),
         _ => {
             let (close, more) = best(problem, &|set| closely::candidate(problem, set));
-            let better = close.filter(|close| plain.is_none_or(|plain| close.1 < plain.1));
+            let better = close.filter(|close| plain.is_none_or(|plain| close.1 <= plain.1.max(1.0)));
             (better.or(plain), tried + more)
         }
     };
