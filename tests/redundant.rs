@@ -244,7 +244,7 @@ fn tight_row(random: &mut Random) -> Problem {
     let count = 2 + (random.unit() * 6.0) as usize;
     let axis = direction(random);
     let tilt = if random.unit() < 0.3 { 0.0 } else { random.decade(-17.0, -4.0) };
-    let mut turned = |random: &mut Random| (axis + random.vector() * tilt).normalize();
+    let turned = |random: &mut Random| (axis + random.vector() * tilt).normalize();
     let mut rows = vec![Row { a: 0, b: None, normal: turned(random), offset: 0.0 }];
     for a in 1..count {
         rows.push(Row { a, b: Some(a - 1), normal: turned(random), offset: 0.0 });
