@@ -85,6 +85,7 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
         settled.fate[index] = settled.judged(index, &resting[index], bodies);
     }
     settled.still(bodies, &inverse_mass, &resting, &slack);
+    settled.stop(bodies, tick);
     settled.let_go(bodies, &resting);
     settled
 }
@@ -124,6 +125,16 @@ impl Settled {
         let noise = ROUNDING * (speed(contact.a) + contact.b.map_or(0.0, speed));
         turning(contact, relative(contact, &|body| bodies[body].v)).length() > noise
             || turning(contact, relative(contact, &|body| self.a[body])).length() > self.noise(contact, bodies)
+    }
+
+    /// Takes what rounding left of the velocities of an island that has come to rest: less than its weight would give it
+    /// before the clock can tell. Nothing turns then.
+    fn stop(&mut self, bodies: &mut [Body], tick: f64) {
+        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= tick * body.applied.length();
+        if bodies.iter().zip(&self.a).all(rests) {
+            bodies.iter_mut().for_each(|body| body.v = DVec3::ZERO);
+            self.curved = false;
+        }
     }
 
     /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches an idle
