@@ -246,6 +246,9 @@ impl<D: Detector> Exact<D> {
         let since = if key.0 == Kind::Pair { before.t.max(self.flight.line(key.2).t) } else { before.t };
         let mut meeting = self.meeting(model, key);
         self.keep_energy(model, &before, &mut meeting);
+        if self.is_squeezed(model, &meeting) {
+            return Ok(());
+        }
         match self.class(model, log, &meeting, since) {
             Class::Collide => self.collide(model, log, &meeting),
             Class::Rest if self.brushes(&meeting) => {

@@ -4,7 +4,6 @@ use super::Exact;
 use super::flight::Record;
 use super::near::Near;
 use crate::physics::contact::Key;
-use crate::physics::contact_time::touch;
 use crate::physics::detector::Detector;
 use crate::physics::log::Log;
 use crate::physics::overlap::touching;
@@ -16,7 +15,14 @@ const MOST_AT_LOAD: usize = 1_000_000;
 impl<D: Detector> Exact<D> {
     /// Handles what touches at the start, in the order of events, and predicts everything.
     pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
-        for key in self.touching_now(model) {
+        let touching = self.touching_now(model);
+        let squeezing = self.squeezing_now(model, &touching);
+        for key in touching {
+            if squeezing.binary_search(&key).is_ok() {
+                let meeting = self.meeting(model, key);
+                self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
+                continue;
+            }
             // a stall at load shows itself again in the first frame
             let _ = self.meet_at_load(model, log, key);
         }
@@ -43,23 +49,21 @@ impl<D: Detector> Exact<D> {
         self.meet(model, log, key)
     }
 
+    /// Of these contacts those that squeeze a sphere between walls.
+    fn squeezing_now(&self, model: &Model, touching: &[Key]) -> Vec<Key> {
+        let walls = touching.iter().take_while(|key| key.0 == Kind::Wall).count();
+        touching[..walls].chunk_by(|one, other| one.1 == other.1).flat_map(|keys| self.squeezing(model, keys)).collect()
+    }
+
     /// Every contact with a gap of at most max(1e-12 r, 8 ulp of the coordinates): walls before pairs, then a, then b.
     fn touching_now(&self, model: &Model) -> Vec<Key> {
         let mut found = Vec::new();
         let mut near = Near::nobody();
         let records = &self.flight.records;
-        for Record { line, spot, sphere, .. } in records {
+        for record in records {
+            let Record { line, spot, sphere, .. } = record;
             let i = *sphere as usize;
-            let slack = touching(line.r, line.x.abs().max_element());
-            let mut wall = |wall: usize| {
-                if touch(&model.faces[wall], line.x, line.r).gap <= slack {
-                    found.push((Kind::Wall, i, wall));
-                }
-            };
-            match &self.cells {
-                None => (0..model.faces.len()).for_each(&mut wall),
-                Some(cells) => cells.walls_near(*spot).iter().for_each(|&w| wall(w as usize)),
-            }
+            found.extend(self.walls_touched(model, record).into_iter().map(|wall| (Kind::Wall, i, wall)));
             let mut pair = |seat: usize| {
                 let (j, other) = (records[seat].sphere as usize, &records[seat].line);
                 let slack = touching(line.r + other.r, line.x.abs().max(other.x.abs()).max_element());

@@ -23,6 +23,7 @@ mod replay;
 mod rest;
 mod roots;
 mod scout;
+mod squeezed;
 mod strike;
 
 use std::borrow::Cow;

@@ -18,6 +18,9 @@ pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// every step.
 const BARELY: f64 = 1e-3;
 
+/// How much more than rounding it may cost to stop what opens by no more than rounding.
+const DEAR: f64 = 1e3;
+
 /// An island after both complementarity problems.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Settled {
@@ -49,12 +52,13 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     for (place, &body) in stopped.bodies.iter().enumerate() {
         bodies[body].v = stopped.vectors[place];
     }
-    let slack = |body: usize| {
+    let rounding = |body: usize| {
         let (pull, size) = (applied[body].length(), bodies[body].x.abs().max_element() + bodies[body].r);
         tick * pull + ROUNDING * velocity[body].length() + (2.0 * pull * HOP * size).sqrt()
     };
+    let slack: Vec<f64> = (0..bodies.len()).map(rounding).collect();
     let opens = |contact: &Resting| {
-        let slack = slack(contact.a) + contact.b.map_or(0.0, slack);
+        let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
     };
     let closed: Vec<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
@@ -80,7 +84,9 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     for &index in &closed {
         settled.fate[index] = settled.judged(index, &resting[index], bodies);
     }
-    settled.still(bodies, &inverse_mass, &resting);
+    settled.still(bodies, &inverse_mass, &resting, &slack);
+    settled.stop(bodies, tick);
+    settled.let_go(bodies, &resting);
     settled
 }
 
@@ -121,20 +127,66 @@ impl Settled {
             || turning(contact, relative(contact, &|body| self.a[body])).length() > self.noise(contact, bodies)
     }
 
-    /// Takes what rounding left of the normal velocities of contacts that hold.
-    fn still(&self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting]) {
-        let rows: Vec<Row> = (resting.iter().zip(&self.fate))
-            .filter(|(_, fate)| **fate == Fate::Loaded)
-            .map(|(contact, _)| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 })
-            .collect();
-        let off = rows.iter().any(|row| {
-            let v = bodies[row.a].v - row.b.map_or(DVec3::ZERO, |b| bodies[b].v);
-            row.normal.dot(v) != 0.0
-        });
-        if off {
-            let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-            let v = bind(inverse_mass, &velocity, &rows).0;
-            bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+    /// Takes what rounding left of the velocities of an island that has come to rest: less than its weight would give it
+    /// before the clock can tell. Nothing turns then.
+    fn stop(&mut self, bodies: &mut [Body], tick: f64) {
+        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= tick * body.applied.length();
+        if bodies.iter().zip(&self.a).all(rests) {
+            bodies.iter_mut().for_each(|body| body.v = DVec3::ZERO);
+            self.curved = false;
+        }
+    }
+
+    /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches an idle
+    /// contact: nothing else would, for it counts as held. By no more than rounding: of two walls that are nearly one, to
+    /// stand still on both would stop the motion along them, and the one that opens lets go instead.
+    fn still(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
+        let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let mut holds: Vec<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
+        let mut v = before.clone();
+        loop {
+            let rows: Vec<Row> = (resting.iter().zip(&holds))
+                .filter(|(_, holds)| **holds)
+                .map(|(contact, _)| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 })
+                .collect();
+            if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
+                v = bind(inverse_mass, &before, &rows).0;
+            }
+            let approaches = |index: usize| {
+                let contact = &resting[index];
+                let noise = ROUNDING * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
+                relative(contact, &|body| v[body]).dot(contact.normal) < -noise
+            };
+            let idle = |index: &usize| self.fate[*index] == Fate::Idle && !holds[*index];
+            let new: Vec<usize> = (0..holds.len()).filter(idle).filter(|&index| approaches(index)).collect();
+            if new.is_empty() {
+                break;
+            }
+            new.into_iter().for_each(|index| holds[index] = true);
+        }
+        let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
+        let opens = |index: usize| {
+            let noise = ROUNDING * before[resting[index].a].length();
+            holds[index] && relative(&resting[index], &|body| before[body]).dot(resting[index].normal) > noise
+        };
+        let opening: Vec<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
+        if !opening.is_empty() && v.iter().enumerate().any(costs) {
+            opening.into_iter().for_each(|index| self.fate[index] = Fate::Opening);
+            return;
+        }
+        bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+    }
+
+    /// An idle contact whose bodies drift apart lets go, however slowly: what would meet there again must be seen.
+    fn let_go(&mut self, bodies: &[Body], resting: &[Resting]) {
+        if self.curved {
+            return;
+        }
+        for (contact, fate) in resting.iter().zip(&mut self.fate).filter(|(_, fate)| **fate == Fate::Idle) {
+            let speed = bodies[contact.a].v.length() + contact.b.map_or(0.0, |b| bodies[b].v.length());
+            if relative(contact, &|body| bodies[body].v).dot(contact.normal) > ROUNDING * speed {
+                *fate = Fate::Opening;
+            }
         }
     }
 }

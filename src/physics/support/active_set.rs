@@ -19,6 +19,9 @@ use super::problem::{Problem, ROUNDING};
 /// the set. What a sphere 1e12 times heavier than the one below it adds is 1e-6.
 pub(super) const DEPENDENT: f64 = 1e-11;
 
+/// The same where that finds no answer: normals that differ by 1e-12 rad are told apart in the end, or are not.
+pub(super) const OTHERWISE_DEPENDENT: [f64; 4] = [1e-13, 1e-9, 1e-14, 1e-7];
+
 /// The same while a guessed set is taken over: contacts left out by mistake join later.
 const DOUBTFUL: f64 = 1e-6;
 
@@ -35,9 +38,9 @@ pub(super) struct Found {
     pub(super) slack: Vec<f64>,
 }
 
-/// Solves the problem from the multipliers `guess` (≥ 0).
-pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Found {
-    let mut set = ActiveSet::new(problem, guess);
+/// Solves the problem from the multipliers `guess` (≥ 0); columns depend on others of which less than `dependent` is new.
+pub(super) fn solve(problem: &Problem, guess: &[f64], dependent: f64) -> Found {
+    let mut set = ActiveSet::new(problem, guess, dependent);
     // Each contact joins and leaves once or twice; far beyond that only rounding is at work.
     let limit = 20 * problem.rows.len() + 50;
     let mut passes = 0;
@@ -52,6 +55,8 @@ pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Found {
 /// The contacts that hold, and the factor of their columns.
 struct ActiveSet<'a> {
     problem: &'a Problem,
+    /// The threshold of dependence.
+    dependent: f64,
     /// √A_jj of every row.
     lengths: Vec<f64>,
     /// The holding contacts, in the order of the factor's columns.
@@ -71,12 +76,13 @@ struct ActiveSet<'a> {
 }
 
 impl ActiveSet<'_> {
-    fn new<'a>(problem: &'a Problem, guess: &[f64]) -> ActiveSet<'a> {
+    fn new<'a>(problem: &'a Problem, guess: &[f64], dependent: f64) -> ActiveSet<'a> {
         let count = problem.rows.len();
         let weighted = |(u, w): (&DVec3, &f64)| (*u / w.sqrt()).to_array();
         let free: Vec<f64> = problem.free.iter().zip(&problem.inverse_mass).flat_map(weighted).collect();
         let mut set = ActiveSet {
             problem,
+            dependent,
             lengths: (0..count).map(|row| problem.diagonal(row).sqrt()).collect(),
             holding: Vec::new(),
             holds: vec![false; count],
@@ -88,7 +94,7 @@ impl ActiveSet<'_> {
             free,
         };
         for (row, &multiplier) in guess.iter().enumerate() {
-            if multiplier > 0.0 && set.append(row, DOUBTFUL) == Append::Added {
+            if multiplier > 0.0 && set.append(row, dependent.max(DOUBTFUL)) == Append::Added {
                 set.loads[row] = multiplier * set.lengths[row];
             }
         }
@@ -125,7 +131,7 @@ impl ActiveSet<'_> {
 
     /// Lets `row` join, in the place of another if it depends on the set by more than rounding.
     fn admit(&mut self, row: usize) {
-        if let Append::Dependent(weights) = self.append(row, DEPENDENT) {
+        if let Append::Dependent(weights) = self.append(row, self.dependent) {
             let slack = 1.0 + weights.iter().map(|weight| weight.abs()).sum::<f64>();
             let rounding = ROUNDING * self.problem.size(row) / self.lengths[row] * slack;
             if self.opening(row, &self.u) >= -rounding || !self.replace(row, &weights) {
@@ -173,7 +179,7 @@ impl ActiveSet<'_> {
             self.loads[other] = (self.loads[other] - weight * load).max(0.0);
         }
         self.drop(gone);
-        if self.append(row, DEPENDENT) != Append::Added {
+        if self.append(row, self.dependent) != Append::Added {
             return false;
         }
         self.loads[row] = load;

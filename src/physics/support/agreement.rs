@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::gauss_seidel;
 use super::problem::{LocalRow, Problem};
-use super::{active_set, enumerate};
+use super::active_set::{self, DEPENDENT};
+use super::enumerate;
 
 /// SplitMix64 mapped to [−1, 1), the seed first.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -46,7 +47,7 @@ fn enumeration_and_active_set_agree_on_single_spheres() {
     for seed in 0..5000 {
         let problem = island(seed, 1, 1 + seed as usize % enumerate::LIMIT);
         let (_, u, _) = enumerate::solve(&problem);
-        let direct = active_set::solve(&problem, &[]);
+        let direct = active_set::solve(&problem, &[], DEPENDENT);
         // Three random normals have a condition of up to some thousands.
         assert!(difference(&problem, &[u], &direct.u) < 1e-11, "seed {seed}: {u} against {}", direct.u[0]);
     }
@@ -62,7 +63,7 @@ fn sweeping_and_active_set_agree_where_sweeping_converges() {
             continue;
         }
         converged += 1;
-        let direct = active_set::solve(&problem, &[]);
+        let direct = active_set::solve(&problem, &[], DEPENDENT);
         let u = problem.response(&swept.multipliers);
         // Sweeping stops at residuals of 1e-13; the condition of the island multiplies them.
         assert!(difference(&problem, &u, &direct.u) < 1e-9, "seed {seed}");
@@ -74,8 +75,8 @@ fn sweeping_and_active_set_agree_where_sweeping_converges() {
 fn a_good_guess_is_confirmed_at_once() {
     for seed in 0..200 {
         let problem = island(seed, 10, 25);
-        let cold = active_set::solve(&problem, &[]);
-        let warm = active_set::solve(&problem, &cold.multipliers);
+        let cold = active_set::solve(&problem, &[], DEPENDENT);
+        let warm = active_set::solve(&problem, &cold.multipliers, DEPENDENT);
         assert!(difference(&problem, &cold.u, &warm.u) < 1e-11, "seed {seed}");
         assert!(warm.passes <= 1 + cold.passes / 4, "seed {seed}: {} passes after {}", warm.passes, cold.passes);
     }

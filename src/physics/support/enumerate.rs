@@ -1,49 +1,81 @@
-//! One body on a few walls: try every set of at most three contacts that could carry it.
+//! One body on some walls: try every set of at most three contacts that could carry it.
 //!
 //! Source: Karush–Kuhn–Tucker conditions of the projection of u₀ onto {u: nᵢ·u + cᵢ ≥ 0}; in space three independent
 //! contacts fix u, so no larger set is needed. Two faces leave the motion along their crease, three leave none. All
 //! formulas are symmetric in the contacts, so that mirror images give mirror images up to rounding.
+//!
+//! Walls that nearly face each other, or nearly coincide, carry a body by forces a million times its weight, and the cross
+//! product of their normals has lost as many digits. Where the plain formulas find no answer, all sets are tried again
+//! with cross products of exact differences (`closely`). What is asked of u is relative to u₀, which bounds it; what is
+//! asked of the forces is relative to them.
 
 use glam::DVec3;
 
+use super::closely;
 use super::problem::{Problem, ROUNDING};
 
-/// Most contacts for which all sets are tried (92 sets at 8).
+/// Most contacts for which all sets are tried at once (92 sets at 8).
 pub(super) const LIMIT: usize = 8;
+
+/// Most contacts for which they are tried if nothing else finds an answer (43 745 sets at 64).
+pub(super) const LAST_RESORT: usize = 64;
+
+/// Pushes in units of u₀ from which on they are computed closely: they have lost four digits.
+const SQUEEZED: f64 = 1e4;
 
 /// A set of contacts that might carry the body.
 #[derive(Debug, Clone, Copy)]
-struct Candidate {
-    u: DVec3,
-    forces: [(usize, f64); 3],
-    /// Worst violation over all conditions, in units of u; 0 if none.
-    violation: f64,
+pub(super) struct Candidate {
+    pub(super) u: DVec3,
+    /// Row and m λ; a row may stand several times.
+    pub(super) pushes: [(usize, f64); 3],
 }
 
-/// Multipliers and u of a problem of one body with at most [`LIMIT`] contacts.
+impl Candidate {
+    /// Whether the contacts push so much harder than u₀ asks that plain formulas have lost digits of the pushes.
+    fn squeezes(&self, problem: &Problem) -> bool {
+        self.pushes.iter().any(|(_, push)| push.abs() > SQUEEZED * problem.free[0].length())
+    }
+}
+
+/// Multipliers and u of a problem of one body.
 ///
 /// The smallest set that satisfies every condition to rounding is taken; should rounding refuse all, the one that
 /// violates least. Returns the multipliers, u, and the number of sets tried.
 pub(super) fn solve(problem: &Problem) -> (Vec<f64>, DVec3, usize) {
-    let count = problem.rows.len();
-    let mut best: Option<Candidate> = None;
-    let mut tried = 0;
-    for set in sets(count) {
-        tried += 1;
-        let Some(candidate) = candidate(problem, &set) else { continue };
-        if best.is_none_or(|best| candidate.violation < best.violation) {
-            best = Some(candidate);
+    let (plain, tried) = best(problem, &|set| candidate(problem, set));
+    let (found, tried) = match plain {
+        Some((found, violation)) if violation <= 1.0 && !found.squeezes(problem) => (plain, tried),
+        _ => {
+            let (close, more) = best(problem, &|set| closely::candidate(problem, set));
+            let better = close.filter(|close| plain.is_none_or(|plain| close.1 <= plain.1.max(1.0)));
+            (better.or(plain), tried + more)
         }
-        if candidate.violation == 0.0 {
+    };
+    let mut multipliers = vec![0.0; problem.rows.len()];
+    let Some((best, _)) = found else { return (multipliers, problem.free[0], tried) };
+    for (row, push) in best.pushes {
+        multipliers[row] += (push / problem.inverse_mass[0]).max(0.0);
+    }
+    (multipliers, best.u, tried)
+}
+
+/// The first set of contacts whose violation is rounding (at most 1), or else the one of the least; and how many were tried.
+fn best(problem: &Problem, of: &dyn Fn(&[usize]) -> Option<Candidate>) -> (Option<(Candidate, f64)>, usize) {
+    let mut best: Option<(Candidate, f64)> = None;
+    let mut tried = 0;
+    for set in sets(problem.rows.len()) {
+        tried += 1;
+        let Some(candidate) = of(&set) else { continue };
+        let violation = violation(problem, &candidate);
+        if best.is_none_or(|(_, least)| violation < least) {
+            best = Some((candidate, violation));
+        }
+        if violation <= 1.0 {
             break;
         }
     }
-    let mut multipliers = vec![0.0; count];
-    let Some(best) = best else { return (multipliers, problem.free[0], tried) };
-    for (row, force) in best.forces {
-        multipliers[row] += force.max(0.0);
-    }
-    (multipliers, best.u, tried)
+    (best, tried)
 }
 
 /// The sets of 0, 1, 2, 3 of `count` contacts, in lexicographic order within a size.
@@ -57,21 +89,18 @@ fn sets(count: usize) -> impl Iterator<Item = Vec<usize>> {
 
 /// u and multipliers if exactly the contacts of `set` hold (nᵢ·u = −cᵢ); none if they are not independent.
 fn candidate(problem: &Problem, set: &[usize]) -> Option<Candidate> {
-    let inverse_mass = problem.inverse_mass[0];
-    let free = problem.free[0];
-    let (u, forces) = match *set {
-        [] => (free, [(0, 0.0); 3]),
+    let (u, pushes) = match *set {
+        [] => (problem.free[0], [(0, 0.0); 3]),
         [i] => one(problem, i),
         [i, j] => two(problem, i, j)?,
         [i, j, k] => three(problem, i, j, k)?,
         _ => return None,
     };
-    let forces = forces.map(|(row, push)| (row, push / inverse_mass));
-    Some(Candidate { u, forces, violation: violation(problem, u, &forces) })
+    Some(Candidate { u, pushes })
 }
 
 /// One contact: u keeps its tangential part. Corrected once, so that n·u + c is 0 to the last digit.
-fn one(problem: &Problem, i: usize) -> (DVec3, [(usize, f64); 3]) {
+pub(super) fn one(problem: &Problem, i: usize) -> (DVec3, [(usize, f64); 3]) {
     let (free, row) = (problem.free[0], &problem.rows[i]);
     let push = -(row.normal.dot(free) + row.offset);
     let u = free + row.normal * push;
@@ -108,14 +137,20 @@ fn three(problem: &Problem, i: usize, j: usize, k: usize) -> Option<(DVec3, [(us
     Some((u, [(i, qr.dot(change)), (j, rp.dot(change)), (k, pq.dot(change))]))
 }
 
-/// Worst pull of a contact that only pushes, or approach of one that should open; 0 if all within rounding.
-fn violation(problem: &Problem, u: DVec3, forces: &[(usize, f64); 3]) -> f64 {
-    let inverse_mass = problem.inverse_mass[0];
-    let pushed: f64 = forces.iter().map(|(_, force)| force.abs() * inverse_mass).sum();
-    let tolerance = ROUNDING * (problem.free[0].length() + pushed);
-    let pull = forces.iter().map(|(_, force)| -force * inverse_mass).fold(0.0, f64::max);
-    let approach = (0..problem.rows.len()).map(|row| -problem.opening(row, &[u])).fold(0.0, f64::max);
+/// Worst pull of a contact that only pushes, or approach of one that should open, in units of its rounding.
+fn violation(problem: &Problem, candidate: &Candidate) -> f64 {
+    let pushes = candidate.pushes.iter().map(|(_, push)| push);
+    let scale = problem.free[0].length();
+    let pushed: f64 = pushes.clone().map(|push| push.abs()).sum();
+    let pull = pushes.fold(0.0, |most: f64, push| most.max(-push));
     let offset = problem.rows.iter().map(|row| row.offset.abs()).fold(0.0, f64::max);
-    let worst = pull.max(approach);
-    if worst <= tolerance + ROUNDING * offset { 0.0 } else { worst }
+    let approach = |row: usize| -problem.opening(row, &[candidate.u]) / share(scale + problem.rows[row].offset.abs());
+    let approach = (0..problem.rows.len()).map(approach).fold(0.0, f64::max);
+    let worst = approach.max(pull / share(scale + pushed + offset));
+    if worst.is_nan() { f64::INFINITY } else { worst }
+}
+
+/// The rounding of terms of this size; more than 0, so that no size is no violation.
+fn share(size: f64) -> f64 {
+    (ROUNDING * size).max(f64::MIN_POSITIVE)
 }

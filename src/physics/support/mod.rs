@@ -12,6 +12,7 @@
 
 mod active_set;
 mod bind;
+mod closely;
 mod enumerate;
 mod factor;
 mod gauss_seidel;
@@ -165,16 +166,17 @@ struct Part {
 impl Part {
     /// Chooses the solver by the island's size and masses.
     fn of(problem: &Problem, guess: Vec<f64>) -> Part {
-        let count = problem.rows.len();
-        if problem.free.len() == 1 && count <= enumerate::LIMIT {
-            let (multipliers, u, passes) = enumerate::solve(problem);
-            return Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new() };
+        let (count, single) = (problem.rows.len(), problem.free.len() == 1);
+        if single && count <= enumerate::LIMIT {
+            return Part::of_single(problem);
         }
         if count == 1 {
             return Part::of_one(problem);
         }
         if count <= DIRECT_ROWS || (problem.mass_ratio() >= UNLIKE_MASSES && count <= MOST_DIRECT_ROWS) {
-            return Part::direct(problem, &guess);
+            let found = Part::direct(problem, &guess);
+            let last = single && count <= enumerate::LAST_RESORT && found.worst(problem) > 1.0;
+            return if last { found.or(Part::of_single(problem), problem) } else { found };
         }
         let swept = gauss_seidel::solve(problem, guess, MOST_SWEEPS);
         if !swept.converged && count <= MOST_DIRECT_ROWS {
@@ -184,10 +186,53 @@ impl Part {
         Part { u, multipliers: swept.multipliers, solver: Solver::GaussSeidel, passes: swept.sweeps, slack: Vec::new() }
     }
 
+    /// One body on some walls.
+    fn of_single(problem: &Problem) -> Part {
+        let (multipliers, u, passes) = enumerate::solve(problem);
+        Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new() }
+    }
+
+    /// The active set; where it does not come to an end, or leaves more than rounding, again with other ideas of what a
+    /// dependent contact is, since none suits every set of contacts. The best answer counts.
     fn direct(problem: &Problem, guess: &[f64]) -> Part {
-        let found = active_set::solve(problem, guess);
-        let (u, multipliers, slack) = (found.u, found.multipliers, found.slack);
-        Part { u, multipliers, solver: Solver::ActiveSet, passes: found.passes, slack }
+        let of = |guess: &[f64], dependent: f64| {
+            let found = active_set::solve(problem, guess, dependent);
+            let (u, multipliers, slack) = (found.u, found.multipliers, found.slack);
+            Part { u, multipliers, solver: Solver::ActiveSet, passes: found.passes, slack }
+        };
+        let mut best = of(guess, active_set::DEPENDENT);
+        for dependent in active_set::OTHERWISE_DEPENDENT {
+            if best.worst(problem) <= 1.0 {
+                break;
+            }
+            best = best.or(of(&[], dependent), problem);
+        }
+        best
+    }
+
+    /// The better one of two answers.
+    fn or(self, other: Part, problem: &Problem) -> Part {
+        let passes = self.passes + other.passes;
+        let better = if other.worst(problem) < self.worst(problem) { other } else { self };
+        Part { passes, ..better }
+    }
+
+    /// The worst row's distance from complementarity, in units of what rounding may leave.
+    fn worst(&self, problem: &Problem) -> f64 {
+        if !self.u.iter().all(|u| u.is_finite()) {
+            return f64::INFINITY;
+        }
+        let of = |row: usize| {
+            let allowed = self.precision() * problem.size(row) * self.slack.get(row).copied().unwrap_or(1.0);
+            let left = problem.residual(row, &self.u, self.multipliers[row]);
+            if left <= allowed { 0.0 } else { left / allowed }
+        };
+        (0..self.multipliers.len()).map(of).fold(0.0, f64::max)
+    }
+
+    /// Relative size of what is left at best.
+    fn precision(&self) -> f64 {
+        if self.solver == Solver::GaussSeidel { 2.0 * PRECISION } else { 2.0 * ROUNDING }
     }
 
     /// One pair: λ = max(0, −(J u₀ + c)/A), corrected once for what rounding left.
@@ -208,15 +253,12 @@ impl Part {
 
     /// How good the answer is, and the size of rounding per body.
     fn report(&self, problem: &Problem) -> (Report, Vec<f64>) {
-        let precision = if self.solver == Solver::GaussSeidel { 2.0 * PRECISION } else { 2.0 * ROUNDING };
-        let (mut residual, mut converged) = (0.0_f64, self.u.iter().all(|u| u.is_finite()));
-        for (row, &multiplier) in self.multipliers.iter().enumerate() {
-            let left = problem.residual(row, &self.u, multiplier);
-            converged &= left <= precision * problem.size(row) * self.slack.get(row).copied().unwrap_or(1.0);
-            residual = residual.max(left);
-        }
+        let left = |row: usize| problem.residual(row, &self.u, self.multipliers[row]);
+        let residual = (0..self.multipliers.len()).map(left).fold(0.0, f64::max);
+        let converged = self.worst(problem) <= 1.0;
         let (contacts, solver, passes) = (self.multipliers.len(), self.solver, self.passes);
         let report = Report { contacts, solver, passes, residual, converged };
+        let precision = self.precision();
         (report, problem.inverse_mass.iter().map(|w| precision * problem.weight * w.sqrt()).collect())
     }
 }
