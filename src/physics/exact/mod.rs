@@ -9,9 +9,11 @@
 mod bounce;
 mod cells;
 mod chatter;
+mod class;
 mod curved;
 mod flight;
 mod impact;
+mod instant;
 mod islands;
 mod lanes;
 mod load;
@@ -23,6 +25,7 @@ mod replay;
 mod rest;
 mod roots;
 mod scout;
+mod series;
 mod strike;
 
 use std::borrow::Cow;
@@ -35,7 +38,7 @@ use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State
 use cells::Cells;
 use chatter::Chatter;
 use flight::Flight;
-use impact::Instant;
+use instant::{Instant, beginning};
 use islands::Rests;
 use lanes::Lanes;
 use near::Near;
@@ -83,6 +86,8 @@ pub(super) struct Exact<D> {
     lanes: Lanes,
     rests: Rests,
     instant: Instant,
+    /// The time scale of the start, s: what the clock is taken for at its zero.
+    beginning: f64,
     chatter: Chatter,
     /// Gaps computed since the log was last told.
     evaluations: u64,
@@ -131,6 +136,7 @@ impl<D: Detector> Engine for Exact<D> {
             lanes: Lanes::new(),
             rests: Rests::default(),
             instant: Instant::default(),
+            beginning: beginning(model, &state),
             chatter: Chatter::default(),
             evaluations: 0,
             origin,
