@@ -73,19 +73,22 @@ impl<D: Detector> Exact<D> {
         meeting.v_n = v_n;
     }
 
-    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
+    /// How long the bounces of a contact still last whose next would go `SMALL_HOP` high at most, s: the sum of their
     /// flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests. Only where they change nothing but
-    /// the height.
+    /// the height. Over so short a time, edges, corners and other spheres are as good as faces.
     pub(super) fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
-        let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.flat && law.tangential == 1.0 && 0.0 < e && e < 1.0;
+        let (law, wall) = (&model.law, meeting.key.0 == Kind::Wall);
+        let e = if wall { law.wall_restitution } else { law.restitution };
+        let closed_form = 0.0 < e && e < 1.0 && (!wall || law.tangential == 1.0);
         if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
             return 0.0;
         }
-        self.bounces(model, meeting).ending(law.rest_speed / -meeting.v_n).after
+        let (speed, press) = (-meeting.v_n, -meeting.a_n);
+        let bounces = Bounces { e, tangential: 1.0, speed, press, slip: DVec3::ZERO, pull: DVec3::ZERO };
+        bounces.ending(law.rest_speed / speed).after
     }
 
-    /// The bounces on a face that follow an impact, whose speeds are those of this moment.
+    /// The bounces on a wall that follow an impact, whose speeds are those of this moment.
     fn bounces(&self, model: &Model, meeting: &Meeting) -> Bounces {
         let path = self.flight.path(meeting.key.1, self.now);
         let along_face = |u: DVec3| u - meeting.normal * meeting.normal.dot(u);
@@ -99,31 +102,36 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    /// Right after an impact on a face that rubs: if the bounces that follow are too low to be worth a look, the sphere
-    /// goes on along the face with their mean velocity, and will have, when they are over, the velocity that they leave.
+    /// Right after an impact on a wall that rubs: if the bounces that follow are too low to be worth a look, the sphere
+    /// goes on along the wall with their mean velocity, and will have, when they are over, the velocity that they leave.
     pub(super) fn sum_up(&mut self, model: &Model, meeting: &Meeting) {
-        let (law, (kind, a, _)) = (&model.law, meeting.key);
-        let e = law.wall_restitution;
-        let series =
-            kind == Kind::Wall && meeting.flat && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
-        if !series || e * -meeting.v_n <= law.rest_speed {
-            return;
-        }
-        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        if e * e * hop > Self::small_hop(meeting) || !self.hops(meeting) {
+        let a = meeting.key.1;
+        if !self.leaves_a_series(model, meeting) {
             return;
         }
         let bounces = self.bounces(model, meeting);
-        let ending = bounces.ending(law.rest_speed / -meeting.v_n);
-        let share = if self.rests.count(a) == 0 { bounces.share_of_pull() } else { 1.0 };
+        let ending = bounces.ending(model.law.rest_speed / -meeting.v_n);
+        let share = if meeting.flat && self.rests.count(a) == 0 { bounces.share_of_pull() } else { 1.0 };
         let change = bounces.pull * (share * ending.after);
         let mean = ending.way / ending.after - change * 0.5;
+        if !mean.is_finite() {
+            // the whole series is over before anything moves
+            return;
+        }
         let line = *self.flight.line(a);
         self.flight.rewrite(a, self.now, line.x, mean);
         let rub = Rub { keeps: ending.keeps, expected: mean + change, slip: ending.slip, share };
         let until = self.now + ending.after;
         self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, until);
         self.rests.rub(meeting.key, rub);
+    }
+
+    /// Whether an impact on a wall that rubs, no rounding itself, is followed by bounces that only sums tell apart.
+    fn leaves_a_series(&self, model: &Model, meeting: &Meeting) -> bool {
+        let (law, e) = (&model.law, model.law.wall_restitution);
+        let series = meeting.key.0 == Kind::Wall && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        series && e * -meeting.v_n > law.rest_speed && e * e * hop <= Self::small_hop(meeting) && self.hops(meeting)
     }
 
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.

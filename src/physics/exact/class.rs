@@ -49,9 +49,10 @@ impl<D: Detector> Exact<D> {
         !self.hops_within_the_clock(meeting) && !meeting.hops_within_rounding(-meeting.a_n)
     }
 
-    /// How high a hop may be (m) to be one of a series that is summed up: what coordinates resolve, at least.
+    /// How high a hop may be (m) to be one of a series that is summed up: what coordinates resolve, at least, and out of
+    /// an overlap, which hides the rest of the series.
     pub(super) fn small_hop(meeting: &Meeting) -> f64 {
-        (SMALL_HOP * meeting.reach).max(HOP * meeting.size())
+        (SMALL_HOP * meeting.reach).max(HOP * meeting.size()).max(-meeting.gap)
     }
 
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
