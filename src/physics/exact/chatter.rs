@@ -27,9 +27,9 @@ const DECAY: f64 = 50.0;
 /// Elastic bounces in a row that coordinates cannot tell from none.
 const LOST: u32 = 1000;
 
-/// A row is fed if its impulses are no more than this many times what the bodies weigh while it lasts. Those of a chain that ends
-/// by itself, in which a fast body is turned round across a small gap, are far more.
-const FED: f64 = 1000.0;
+/// A row is fed if its impulses are no more than this many times what all bodies weigh while it lasts: whatever is piled
+/// upon them. Those of a chain that ends by itself, in which a fast body is turned round across a small gap, are far more.
+const FED: f64 = 8.0;
 
 /// Small bounces of some contacts, each in a row so far.
 pub(super) type Chatter = BTreeMap<Key, Row>;
@@ -63,7 +63,7 @@ impl Row {
         lasts || self.tiny > MANY
     }
 
-    /// Whether what pulls the bodies, at most `pull` (m/s²) of v_n, can have kept the row going.
+    /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.
     fn is_fed(&self, pull: f64) -> bool {
         self.given <= FED * pull * (self.last - self.first)
     }
@@ -107,14 +107,10 @@ impl<D: Detector> Exact<D> {
         fed && (!self.chatter.is_empty() || -meeting.v_n * (self.now - since) <= 4.0 * small)
     }
 
-    /// How fast the weights of the bodies of a contact can change v_n at most, m/s²: both act upon the lighter one. What
-    /// nothing pulls dies out, or collapses at one instant.
+    /// How fast all weight of the scene would change v_n, m/s². What nothing pulls dies out, or collapses at one instant.
     fn pull(&self, model: &Model, (kind, a, b): Key) -> f64 {
-        let weight = |i: usize| model.acceleration(i).length() * model.masses[i];
-        match kind {
-            Kind::Wall => model.acceleration(a).length(),
-            Kind::Pair => (weight(a) + weight(b)) * (model.inverse_masses[a] + model.inverse_masses[b]),
-        }
+        let other = if kind == Kind::Pair { model.inverse_masses[b] } else { 0.0 };
+        self.weight * (model.inverse_masses[a] + other)
     }
 
     /// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
@@ -128,4 +124,9 @@ impl<D: Detector> Exact<D> {
         let rests = self.rests.count(a) > 0 || (kind == Kind::Pair && self.rests.count(b) > 0);
         if own == 1.0 && rests { other.min(law.tangential) } else { own }
     }
+}
+
+/// What all spheres weigh, their own forces included, N.
+pub(super) fn weight(model: &Model) -> f64 {
+    (0..model.len()).map(|i| model.acceleration(i).length() * model.masses[i]).sum()
 }

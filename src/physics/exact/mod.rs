@@ -36,7 +36,7 @@ use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::Cells;
-use chatter::Chatter;
+use chatter::{Chatter, weight};
 use flight::Flight;
 use instant::{Instant, beginning};
 use islands::Rests;
@@ -89,6 +89,8 @@ pub(super) struct Exact<D> {
     /// The time scale of the start, s: what the clock is taken for at its zero.
     beginning: f64,
     chatter: Chatter,
+    /// What all spheres weigh, N.
+    weight: f64,
     /// Gaps computed since the log was last told.
     evaluations: u64,
     origin: Origin,
@@ -138,6 +140,7 @@ impl<D: Detector> Engine for Exact<D> {
             instant: Instant::default(),
             beginning: beginning(model, &state),
             chatter: Chatter::default(),
+            weight: weight(model),
             evaluations: 0,
             origin,
             resumes: None,
