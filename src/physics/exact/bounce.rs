@@ -7,6 +7,7 @@ use super::Exact;
 use super::flight::Line;
 use super::impact::Meeting;
 use super::rest::ROUNDING;
+use super::series::Bounces;
 use crate::physics::contact_time::{Part, Path, touch};
 use crate::physics::detector::Detector;
 use crate::physics::{Kind, Model};
@@ -32,20 +33,24 @@ pub(super) fn pair_push(arm: DVec3, w: DVec3, share: f64, restitution: f64) -> D
     arm * (-(1.0 + restitution) * arm.dot(w) / (arm.length_squared() * share))
 }
 
-/// The first power eᵏ, k ≥ 1, that is at most `bound` < 1, for 0 ≤ e < 1; 0 if `bound` is.
-fn first_power_below(e: f64, bound: f64) -> f64 {
-    if bound <= 0.0 || e <= bound {
-        return if bound <= 0.0 { 0.0 } else { e };
+/// What bounces that were summed up do to the tangential velocity of a sphere when they are over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rub {
+    /// What they leave of what was added meanwhile.
+    pub(super) keeps: f64,
+    /// The tangential velocity that the sphere would have then if nothing else happened, and the one that it gets, m/s.
+    pub(super) expected: DVec3,
+    pub(super) slip: DVec3,
+    /// How much of the acceleration along the face acts until then.
+    pub(super) share: f64,
+}
+
+impl Rub {
+    /// The velocity (m/s) after the bounces on a face with this normal, from the one that it had come to.
+    pub(super) fn end(&self, v: DVec3, normal: DVec3) -> DVec3 {
+        let across = normal * normal.dot(v);
+        across + self.slip + (v - across - self.expected) * self.keeps
     }
-    // e, e², e⁴ …: as many as are above the bound, at most 53 + 11 of them
-    let mut squares = vec![e];
-    while let Some(&last) = squares.last().filter(|&&last| last * last > bound) {
-        squares.push(last * last);
-    }
-    let above =
-        squares.iter().rev().fold(1.0, |power, square| if power * square > bound { power * square } else { power });
-    // rounding of the squares may have put it an ulp above
-    (above * e).min(bound)
 }
 
 impl<D: Detector> Exact<D> {
@@ -68,17 +73,65 @@ impl<D: Detector> Exact<D> {
         meeting.v_n = v_n;
     }
 
-    /// How long the bounces on a face still last whose next would go `SMALL_HOP` high at most, s: the sum of their
+    /// How long the bounces of a contact still last whose next would go `SMALL_HOP` high at most, s: the sum of their
     /// flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests. Only where they change nothing but
-    /// the height.
+    /// the height. Over so short a time, edges, corners and other spheres are as good as faces.
     pub(super) fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
-        let (law, e) = (&model.law, model.law.wall_restitution);
-        let closed_form = meeting.flat && law.tangential == 1.0 && e < 1.0;
+        let (law, wall) = (&model.law, meeting.key.0 == Kind::Wall);
+        let e = if wall { law.wall_restitution } else { law.restitution };
+        let closed_form = 0.0 < e && e < 1.0 && (!wall || law.tangential == 1.0);
         if !closed_form || meeting.a_n >= 0.0 || -meeting.v_n <= law.rest_speed {
             return 0.0;
         }
-        let last = first_power_below(e, law.rest_speed / -meeting.v_n);
-        2.0 * -meeting.v_n * e * (1.0 - last) / (-meeting.a_n * (1.0 - e))
+        let (speed, press) = (-meeting.v_n, -meeting.a_n);
+        let bounces = Bounces { e, tangential: 1.0, speed, press, slip: DVec3::ZERO, pull: DVec3::ZERO };
+        bounces.ending(law.rest_speed / speed).after
+    }
+
+    /// The bounces on a wall that follow an impact, whose speeds are those of this moment.
+    fn bounces(&self, model: &Model, meeting: &Meeting) -> Bounces {
+        let path = self.flight.path(meeting.key.1, self.now);
+        let along_face = |u: DVec3| u - meeting.normal * meeting.normal.dot(u);
+        Bounces {
+            e: model.law.wall_restitution,
+            tangential: model.law.tangential,
+            speed: -meeting.v_n,
+            press: -meeting.a_n,
+            slip: along_face(path.v),
+            pull: along_face(path.a),
+        }
+    }
+
+    /// Right after an impact on a wall that rubs: if the bounces that follow are too low to be worth a look, the sphere
+    /// goes on along the wall with their mean velocity, and will have, when they are over, the velocity that they leave.
+    pub(super) fn sum_up(&mut self, model: &Model, meeting: &Meeting) {
+        let a = meeting.key.1;
+        if !self.leaves_a_series(model, meeting) {
+            return;
+        }
+        let bounces = self.bounces(model, meeting);
+        let ending = bounces.ending(model.law.rest_speed / -meeting.v_n);
+        let share = if meeting.flat && self.rests.count(a) == 0 { bounces.share_of_pull() } else { 1.0 };
+        let change = bounces.pull * (share * ending.after);
+        let mean = ending.way / ending.after - change * 0.5;
+        if !mean.is_finite() {
+            // the whole series is over before anything moves
+            return;
+        }
+        let line = *self.flight.line(a);
+        self.flight.rewrite(a, self.now, line.x, mean);
+        let rub = Rub { keeps: ending.keeps, expected: mean + change, slip: ending.slip, share };
+        let until = self.now + ending.after;
+        self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, until);
+        self.rests.rub(meeting.key, rub);
+    }
+
+    /// Whether an impact on a wall that rubs, no rounding itself, is followed by bounces that only sums tell apart.
+    fn leaves_a_series(&self, model: &Model, meeting: &Meeting) -> bool {
+        let (law, e) = (&model.law, model.law.wall_restitution);
+        let series = meeting.key.0 == Kind::Wall && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        series && e * -meeting.v_n > law.rest_speed && e * e * hop <= Self::small_hop(meeting) && self.hops(meeting)
     }
 
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
@@ -118,26 +171,6 @@ impl<D: Detector> Exact<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_first_power_below_a_bound_is_the_one_that_counting_finds() {
-        for e in [0.0, 1e-3, 0.3, 0.5, 0.8, 0.99, 0.9999] {
-            // none that a power meets but for rounding: there either neighbour is right
-            for bound in [0.999_999, 0.5, 0.25, 0.1, 1e-3, 2e-12] {
-                let mut power: f64 = e;
-                let mut count = 1;
-                while power > bound {
-                    power *= e;
-                    count += 1;
-                }
-                let found = first_power_below(e, bound);
-                // Each product rounds.
-                assert!((found - power).abs() <= f64::from(count) * f64::EPSILON * power, "{e}, {bound}: {found}");
-            }
-        }
-        assert_eq!(first_power_below(0.999, 0.0), 0.0);
-        assert!(first_power_below(1.0 - f64::EPSILON, 1e-300) <= 1e-300, "and it does not count for ever");
-    }
 
     #[test]
     fn a_change_along_a_rounded_normal_is_made_to_far_below_an_ulp() {

@@ -6,21 +6,30 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Exact;
+use super::class::SMALL_HOP;
 use super::impact::{HOP, Meeting};
 use crate::physics::contact::Key;
 use crate::physics::detector::Detector;
+use crate::physics::model::ContactLaw;
 use crate::physics::{Kind, Model};
+
+/// The law that takes nothing away: nothing dies out by it.
+const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 };
 
 /// A bounce is small if the gap has opened by less than this many radii since the impact before.
 const SMALL: f64 = 1e-7;
 
 /// So many bounces in a row must not have died out, and so many times 1 / (1 − e): restitution alone would have left e⁻⁵⁰
-/// of their speed.
+/// of their speed. Across less than [`SMALL_HOP`] the first alone is enough.
 const MANY: u32 = 100;
 const DECAY: f64 = 50.0;
 
 /// Elastic bounces in a row that coordinates cannot tell from none.
 const LOST: u32 = 1000;
+
+/// A row is fed if its impulses are no more than this many times what all bodies weigh while it lasts: whatever is piled
+/// upon them. Those of a chain that ends by itself, in which a fast body is turned round across a small gap, are far more.
+const FED: f64 = 8.0;
 
 /// Small bounces of some contacts, each in a row so far.
 pub(super) type Chatter = BTreeMap<Key, Row>;
@@ -29,43 +38,65 @@ pub(super) type Chatter = BTreeMap<Key, Row>;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     count: u32,
-    /// When the last of them was, s.
+    /// How many of them, the last ones, were lower than [`SMALL_HOP`].
+    tiny: u32,
+    /// When the first and the last of them were, s.
+    first: f64,
     last: f64,
     /// The approach speed (m/s) that it should have had at most, had each lost at least the root of what restitution takes.
     due: f64,
+    /// The sum of 1 + e times the approach speeds, m/s.
+    given: f64,
 }
 
 impl Row {
+    fn new(now: f64, approach_speed: f64) -> Row {
+        Row { count: 0, tiny: 0, first: now, last: now, due: approach_speed, given: 0.0 }
+    }
+
     fn is_endless(&self, approach_speed: f64, keeps: f64) -> bool {
         if keeps == 1.0 {
             return self.count > LOST;
         }
         let count = f64::from(self.count);
-        self.count > MANY && count * (1.0 - keeps) > DECAY && approach_speed > self.due
+        let lasts = self.count > MANY && count * (1.0 - keeps) > DECAY && approach_speed > self.due;
+        lasts || self.tiny > MANY
+    }
+
+    /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.
+    fn is_fed(&self, pull: f64) -> bool {
+        self.given <= FED * pull * (self.last - self.first)
     }
 }
 
 impl<D: Detector> Exact<D> {
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
-    /// bodies last changed.
+    /// bodies last changed. What happens at one instant is a chain of impacts and no row of bounces.
     pub(super) fn chatters(&mut self, model: &Model, meeting: &Meeting, since: f64) -> bool {
-        if !self.is_fed(model, meeting.key) {
+        let pull = self.pull(model, meeting.key);
+        if pull == 0.0 || model.law == LOSSLESS {
             return false;
         }
         let (now, approach_speed) = (self.now, -meeting.v_n);
         let since = self.chatter.get(&meeting.key).map_or(since, |row| row.last);
         let keeps = self.keeps(model, meeting.key);
-        let small = if keeps < 1.0 { SMALL * meeting.reach } else { HOP * meeting.size() };
+        let rounding = HOP * meeting.size();
+        let small = if keeps < 1.0 { SMALL * meeting.reach } else { rounding };
         // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
-        if approach_speed * (now - since) > 4.0 * small {
+        let way = 0.25 * approach_speed * (now - since);
+        if way > small {
             self.chatter.remove(&meeting.key);
             return false;
         }
-        let row = self.chatter.entry(meeting.key).or_insert(Row { count: 0, last: now, due: approach_speed });
-        row.count = row.count.saturating_add(1);
-        row.last = now;
-        row.due *= keeps.sqrt();
-        row.is_endless(approach_speed, keeps)
+        let row = self.chatter.entry(meeting.key).or_insert(Row::new(now, approach_speed));
+        row.given += (1.0 + keeps) * approach_speed;
+        if now > row.last || row.count == 0 {
+            row.count = row.count.saturating_add(1);
+            row.tiny = if way <= (SMALL_HOP * meeting.reach).max(rounding) { row.tiny + 1 } else { 0 };
+            row.last = now;
+            row.due *= keeps.sqrt();
+        }
+        row.is_endless(approach_speed, keeps) && row.is_fed(pull)
     }
 
     /// Whether [`Exact::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
@@ -76,10 +107,10 @@ impl<D: Detector> Exact<D> {
         fed && (!self.chatter.is_empty() || -meeting.v_n * (self.now - since) <= 4.0 * small)
     }
 
-    /// Whether anything pulls a body of this contact. What nothing feeds dies out, or collapses at one instant.
-    fn is_fed(&self, model: &Model, (kind, a, b): Key) -> bool {
-        let pulled = |i: usize| model.acceleration(i) != DVec3::ZERO;
-        pulled(a) || (kind == Kind::Pair && pulled(b))
+    /// How fast all weight of the scene would change v_n, m/s². What nothing pulls dies out, or collapses at one instant.
+    fn pull(&self, model: &Model, (kind, a, b): Key) -> f64 {
+        let other = if kind == Kind::Pair { model.inverse_masses[b] } else { 0.0 };
+        self.weight * (model.inverse_masses[a] + other)
     }
 
     /// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
@@ -93,4 +124,9 @@ impl<D: Detector> Exact<D> {
         let rests = self.rests.count(a) > 0 || (kind == Kind::Pair && self.rests.count(b) > 0);
         if own == 1.0 && rests { other.min(law.tangential) } else { own }
     }
+}
+
+/// What all spheres weigh, their own forces included, N.
+pub(super) fn weight(model: &Model) -> f64 {
+    (0..model.len()).map(|i| model.acceleration(i).length() * model.masses[i]).sum()
 }

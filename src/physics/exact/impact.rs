@@ -1,7 +1,5 @@
 //! A contact happens: the impact law acts, or a rest may begin.
 
-use std::collections::BTreeMap;
-
 use glam::DVec3;
 
 use super::Exact;
@@ -10,27 +8,10 @@ use crate::physics::contact::Key;
 use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
 use crate::physics::detector::Detector;
 use crate::physics::log::Log;
-use crate::physics::motion::{classify, normal_velocity, separation_speed};
+use crate::physics::motion::{normal_velocity, separation_speed};
 use crate::physics::parts::part_ahead;
 use crate::physics::state::runaway;
 use crate::physics::{Class, Contact, Kind, Model, Stall};
-
-/// Impacts of one contact without the clock advancing after which it rests, for restitution below 1: inelastic collapse
-/// (McNamara, Young 1992). Chains that end in fewer must not be cut off.
-pub(super) const COLLAPSE: u32 = 1000;
-
-/// Impacts by then of another contact that belongs to the same collapse, and rests with it: the limit of the chain is
-/// that none of them approaches any longer.
-const COLLAPSE_SHARE: u32 = 100;
-
-/// Events without the clock advancing after which the run ends; a thousand more per sphere. A million take a second.
-const MOST_AT_ONCE: u64 = 1_000_000;
-
-/// Releases of one contact without the clock advancing after which it is held for a moment.
-const STUCK: u32 = 20;
-
-/// Over how many events the clock must advance by more than rounding.
-const STRETCH: u64 = 20_000_000;
 
 /// Flights shorter than this many times the clock's rounding, over 1 − e, never decay (Zeno).
 pub(super) const ZENO: f64 = 10.0;
@@ -38,43 +19,8 @@ pub(super) const ZENO: f64 = 10.0;
 /// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
 pub(super) const HOP: f64 = 4.0 * f64::EPSILON;
 
-/// Bounces whose hops are lower than this many radii are summed up in closed form.
-const SMALL_HOP: f64 = 1e-12;
-
 /// Normal velocities below this share of the speed may be those of a sphere that slides.
 const SLOW: f64 = 1e-6;
-
-/// Coarsest time scale at which rounding of the clock is ignored, s.
-const CLOCK: f64 = 1e-3;
-
-/// What happened without the clock advancing.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Instant {
-    pub(super) events: u64,
-    impacts: BTreeMap<Key, u32>,
-    /// Whether a chain of impacts has collapsed.
-    collapsed: bool,
-    /// How often each contact has opened.
-    releases: BTreeMap<Key, u32>,
-    /// Events in this stretch, and the time when it began, s.
-    stretch: u64,
-    since: f64,
-}
-
-impl Instant {
-    /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
-    pub(super) fn has_collapsed(&self, key: Key) -> bool {
-        self.collapsed && self.impacts.get(&key).is_some_and(|&count| count > COLLAPSE_SHARE)
-    }
-
-    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
-    /// its island, which brings back this one. Held together for a moment, they are solved together.
-    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
-        let count = self.releases.entry(key).or_default();
-        *count += 1;
-        *count > STUCK
-    }
-}
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -133,42 +79,6 @@ pub(super) fn note(log: &mut Log, row: Contact) {
 }
 
 impl<D: Detector> Exact<D> {
-    /// The clock goes on to `time`, s; says so if it does not for too many events.
-    pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
-        let Exact { instant, now, .. } = self;
-        if time > *now {
-            *now = time;
-            (instant.events, instant.collapsed) = (0, false);
-            if !instant.impacts.is_empty() || !instant.releases.is_empty() {
-                instant.impacts.clear();
-                instant.releases.clear();
-            }
-        }
-        instant.events += 1;
-        instant.stretch += 1;
-        if instant.events > MOST_AT_ONCE + 1000 * spheres as u64 {
-            let events = instant.events;
-            return Err(self.no_progress(events));
-        }
-        if instant.stretch > STRETCH + 1000 * spheres as u64 {
-            // a nanosecond of the time scale: what a hundred million such stretches would still not leave behind
-            if *now - instant.since < 1e-9 * now.abs().max(CLOCK) {
-                let events = instant.stretch;
-                return Err(self.no_progress(events));
-            }
-            (instant.stretch, instant.since) = (0, *now);
-        }
-        Ok(())
-    }
-
-    fn no_progress(&self, events: u64) -> Stall {
-        let reason = format!(
-            "{events} events happened at t = {} s without the clock advancing; set a larger rest_speed, or change the method from here.",
-            self.now
-        );
-        Stall { time: self.now, kind: "no-progress", reason }
-    }
-
     /// The contact that the sphere at a seat planned is due.
     pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
         let plan = self.flight.records[seat].plan;
@@ -274,66 +184,6 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
-    fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting, since: f64) -> Class {
-        let (kind, ..) = meeting.key;
-        let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
-        let pressed = meeting.a_n < 0.0;
-        let tick = self.tick();
-        if pressed && meeting.v_n.abs() <= ZENO * -meeting.a_n * tick {
-            // the flight would last no longer than the clock can tell
-            return Class::Rest;
-        }
-        if pressed && meeting.hops_within_rounding(-meeting.a_n) {
-            return Class::Rest;
-        }
-        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        let dies_out = || self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
-        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out() {
-            return Class::Rest;
-        }
-        let mut law = model.law;
-        if restitution < 1.0 {
-            law.rest_speed = law.rest_speed.max(ZENO * (-meeting.a_n).max(0.0) * tick / (1.0 - restitution));
-        }
-        let class = classify(meeting.v_n, pressed, &law);
-        if class == Class::Collide && self.chatters(model, meeting, since) {
-            log.tallies.collapses += 1;
-            return Class::Rest;
-        }
-        if class == Class::Collide && restitution < 1.0 && self.instant.events > u64::from(COLLAPSE) {
-            let count = self.instant.impacts.entry(meeting.key).or_default();
-            *count += 1;
-            self.instant.collapsed |= *count > COLLAPSE;
-            if self.instant.has_collapsed(meeting.key) {
-                log.tallies.collapses += 1;
-                return Class::Rest;
-            }
-        }
-        class
-    }
-
-    /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
-    /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end.
-    fn hums(&self, model: &Model, (kind, a, b): Key) -> bool {
-        let law = &model.law;
-        let beside = |wall| {
-            touch(&model.faces[wall], self.flight.line(a).x, self.flight.line(a).r).gap
-                <= SMALL_HOP * self.flight.line(a).r
-        };
-        kind == Kind::Wall
-            && law.wall_restitution == 1.0
-            && (law.tangential == 1.0
-                || self.rests.count(a) > 0
-                || (0..model.faces.len()).any(|wall| wall != b && beside(wall)))
-    }
-
-    /// Rounding of the clock, s.
-    pub(super) fn tick(&self) -> f64 {
-        let t = self.now.abs().max(CLOCK);
-        t.next_up() - t
-    }
-
     /// An impact: both bodies get their impulse.
     pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Result<(), Stall> {
         let (kind, a, b) = meeting.key;
@@ -360,11 +210,13 @@ impl<D: Detector> Exact<D> {
         self.part(model, meeting.key, 0.0);
         let row = meeting.row(self.now, Class::Collide, impulse, target);
         note(log, row);
+        self.count_impact(meeting);
         self.follow_up(model, log, meeting.key)?;
         if target == 0.0 && meeting.a_n < 0.0 {
             // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
             self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, self.now);
         }
+        self.sum_up(model, meeting);
         Ok(())
     }
 

@@ -9,9 +9,11 @@
 mod bounce;
 mod cells;
 mod chatter;
+mod class;
 mod curved;
 mod flight;
 mod impact;
+mod instant;
 mod islands;
 mod lanes;
 mod load;
@@ -23,6 +25,7 @@ mod replay;
 mod rest;
 mod roots;
 mod scout;
+mod series;
 mod squeezed;
 mod strike;
 
@@ -34,9 +37,9 @@ use super::detector::Detector;
 use super::log::Log;
 use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
 use cells::Cells;
-use chatter::Chatter;
+use chatter::{Chatter, weight};
 use flight::Flight;
-use impact::Instant;
+use instant::{Instant, beginning};
 use islands::Rests;
 use lanes::Lanes;
 use near::Near;
@@ -84,7 +87,11 @@ pub(super) struct Exact<D> {
     lanes: Lanes,
     rests: Rests,
     instant: Instant,
+    /// The time scale of the start, s: what the clock is taken for at its zero.
+    beginning: f64,
     chatter: Chatter,
+    /// What all spheres weigh, N.
+    weight: f64,
     /// Gaps computed since the log was last told.
     evaluations: u64,
     origin: Origin,
@@ -132,7 +139,9 @@ impl<D: Detector> Engine for Exact<D> {
             lanes: Lanes::new(),
             rests: Rests::default(),
             instant: Instant::default(),
+            beginning: beginning(model, &state),
             chatter: Chatter::default(),
+            weight: weight(model),
             evaluations: 0,
             origin,
             resumes: None,

@@ -4,7 +4,8 @@
 use super::Exact;
 use super::bounce::pair_push;
 use super::flight::{Flight, Line};
-use super::impact::{COLLAPSE, Meeting, note};
+use super::impact::{Meeting, note};
+use super::instant::LONG_CHAIN;
 use super::prediction::Plan;
 use crate::physics::contact_time::pair_normal_velocity;
 use crate::physics::detector::Detector;
@@ -82,9 +83,8 @@ impl<D: Detector> Exact<D> {
     #[inline(always)]
     fn is_plain(&self, model: &Model, meeting: &Meeting) -> bool {
         let v_n = meeting.v_n;
-        let collapses = self.instant.events > u64::from(COLLAPSE);
-        let watched = v_n * v_n == 0.0 || collapses;
-        v_n < -model.law.rest_speed && !(model.law.restitution < 1.0 && watched)
+        let watched = model.law.restitution < 1.0 && v_n * v_n == 0.0;
+        v_n < -model.law.rest_speed && !watched && self.instant.events <= LONG_CHAIN
     }
 
     /// Both get their impulse; returns 1/m₁ + 1/m₂, 1/kg.

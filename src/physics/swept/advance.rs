@@ -30,9 +30,6 @@ const HOP: f64 = 4.0 * f64::EPSILON;
 /// Normal velocities below this share of the bodies' speeds are rounding: 64 ulp.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Coarsest time scale at which rounding of the clock is ignored, s.
-const CLOCK: f64 = 1e-3;
-
 /// Looks at two bodies after which the search is interrupted, to go on from there.
 const PATIENCE: usize = 200;
 
@@ -93,7 +90,7 @@ impl Advance {
             }
             let wide = seen.gap > 2.0 * near;
             let step = if wide { wide_step(seen, near) } else { self.close_step(sight, seen) }?;
-            let next = later(span.now, s, step);
+            let next = s + step.max(least_step(sight, span.now, s));
             if next >= span.before || next.is_nan() {
                 return None;
             }
@@ -169,8 +166,9 @@ fn closes(sight: &impl Sight, s: f64, seen: Glance) -> bool {
     seen.v_n < 0.0 && seen.v_n < -ROUNDING * sight.speed(s) || seen.v_n <= 0.0 && sight.bend(s) < 0.0
 }
 
-/// A step after `s` (s from now), which the clock must be able to tell from it.
-fn later(now: f64, s: f64, step: f64) -> f64 {
-    let time = (now + s).abs().max(CLOCK);
-    s + step.max(time.next_up() - time)
+/// The shortest step worth a look `s` seconds from now, s: one that the clock can tell from none, and in which what moves
+/// goes as far as coordinates can tell.
+fn least_step(sight: &impl Sight, now: f64, s: f64) -> f64 {
+    let (time, way) = ((now + s).abs(), f64::EPSILON * sight.size());
+    (time.next_up() - time).max(way / (sight.speed(s) + (sight.pull() * way).sqrt()))
 }

@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc as Shared;
 
 use super::Exact;
+use super::bounce::Rub;
 use super::curved::{Arc, Body, Closed, On};
 use super::flight::Flight;
 use super::impact::{Meeting, ZENO};
@@ -36,6 +37,8 @@ struct Held {
     /// again then, and no rest announced before.
     settles_at: f64,
     load: Load,
+    /// What bounces that were summed up have done by `settles_at`.
+    rub: Option<Rub>,
 }
 
 /// Spheres connected by resting contacts, until something changes.
@@ -233,7 +236,14 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held { part, announced: false, v_n: meeting.v_n, settles_at: bounces_until, load: Load::default() };
+        let held = Held {
+            part,
+            announced: false,
+            v_n: meeting.v_n,
+            settles_at: bounces_until,
+            load: Load::default(),
+            rub: None,
+        };
         if self.held.insert(meeting.key, held).is_none() {
             self.of[a].push(meeting.key);
             if kind == Kind::Pair {
@@ -251,6 +261,13 @@ impl Rests {
             self.of[b].retain(|&other| other != key);
         }
         self.held.remove(&key).is_some_and(|held| held.announced)
+    }
+
+    /// Has bounces that were summed up act on a contact when they are over.
+    pub(super) fn rub(&mut self, key: Key, rub: Rub) {
+        if let Some(held) = self.held.get_mut(&key) {
+            held.rub = Some(rub);
+        }
     }
 
     /// Holds a contact that opens until `time` (s) all the same.

@@ -42,7 +42,8 @@ impl<D: Detector> Exact<D> {
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
             let meeting = self.seen(model, key, self.now);
-            if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key) {
+            if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key, -meeting.v_n)
+            {
                 continue;
             }
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.line(i).v.length() {
@@ -192,6 +193,7 @@ impl<D: Detector> Exact<D> {
 
     /// Settles connected contacts; returns those that are left if some opened, for they may have fallen apart.
     fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
+        self.rub_off(model, keys);
         let (spheres, mut bodies, contacts) = self.island_of(model, keys);
         let settled = settle(&mut bodies, &closed(model, &contacts), ZENO * self.tick());
         if !settled.converged {
@@ -199,7 +201,7 @@ impl<D: Detector> Exact<D> {
         }
         for (place, &i) in spheres.iter().enumerate() {
             self.flight.rewrite(i, self.now, bodies[place].x, bodies[place].v);
-            self.flight.accelerate(i, settled.a[place]);
+            self.flight.accelerate(i, settled.a[place] * self.share_of_pull(keys));
         }
         self.announce(model, log, keys, &settled);
         self.carry(keys, &settled.forces);
@@ -219,7 +221,10 @@ impl<D: Detector> Exact<D> {
             self.rests.hold_until(key, self.now + pause);
         }
         if settled.curved {
-            self.follow(&spheres, Curve::new(model, bodies, contacts, self.now).cut(pause));
+            self.follow(
+                &spheres,
+                Curve::new(model, bodies, contacts, self.now).cut(pause.min(self.settling_time(keys) - self.now)),
+            );
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
             self.rests.found(Island { spheres, end, curve: None }, self.now);
@@ -227,11 +232,29 @@ impl<D: Detector> Exact<D> {
         Ok(None)
     }
 
+    /// Bounces that were summed up are over: what they have left of the tangential velocity.
+    fn rub_off(&mut self, model: &Model, keys: &[Key]) {
+        for &key in keys {
+            let due = |held: &&mut Held| held.settles_at <= self.now;
+            let Some(rub) = self.rests.held.get_mut(&key).filter(due).and_then(|held| held.rub.take()) else {
+                continue;
+            };
+            let (normal, line) = (self.seen(model, key, self.now).normal, *self.flight.line(key.1));
+            self.flight.rewrite(key.1, self.now, line.x, rub.end(line.v, normal));
+        }
+    }
+
+    /// How much of its acceleration moves on a sphere whose only contact is one of bounces that were summed up.
+    fn share_of_pull(&self, keys: &[Key]) -> f64 {
+        let [key] = keys else { return 1.0 };
+        self.rests.held.get(key).and_then(|held| held.rub).map_or(1.0, |rub| rub.share)
+    }
+
     /// How long contacts that keep being released and found again at one instant are held all the same, s: a moment in
     /// the time that these spheres would take to fall by their radius.
     fn pause(&self, bodies: &[Body]) -> f64 {
         let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
-        let squared = bodies.iter().map(of).fold(1.0, f64::min);
+        let squared = bodies.iter().map(of).fold(f64::INFINITY, f64::min);
         (PAUSE * squared.sqrt()).max(ZENO * self.tick())
     }
 

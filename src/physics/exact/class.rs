@@ -1,0 +1,74 @@
+//! What the impact law makes of a contact, and where it has no further event in finite time or none that numbers can
+//! resolve: there the contact rests.
+
+use super::Exact;
+use super::impact::{HOP, Meeting, ZENO};
+use crate::physics::contact::Key;
+use crate::physics::contact_time::touch;
+use crate::physics::detector::Detector;
+use crate::physics::log::Log;
+use crate::physics::motion::classify;
+use crate::physics::{Class, Kind, Model};
+
+/// Bounces whose hops are lower than this many radii are summed up in closed form.
+pub(super) const SMALL_HOP: f64 = 1e-12;
+
+impl<D: Detector> Exact<D> {
+    /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
+    pub(super) fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting, since: f64) -> Class {
+        let (kind, ..) = meeting.key;
+        let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
+        let pressed = meeting.a_n < 0.0;
+        if pressed && (self.hops_within_the_clock(meeting) || meeting.hops_within_rounding(-meeting.a_n)) {
+            return Class::Rest;
+        }
+        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
+        let dies_out = || self.bounces_left(model, meeting) > 0.0 || self.hums(model, meeting.key);
+        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out() {
+            return Class::Rest;
+        }
+        let class = classify(meeting.v_n, pressed, &model.law);
+        if class == Class::Collide && self.chatters(model, meeting, since) {
+            log.tallies.collapses += 1;
+            return Class::Rest;
+        }
+        if class == Class::Collide && restitution < 1.0 && self.instant.collapses(meeting.key, -meeting.v_n) {
+            log.tallies.collapses += 1;
+            return Class::Rest;
+        }
+        class
+    }
+
+    /// Whether bodies pressed together would be apart for no longer than the clock can tell.
+    fn hops_within_the_clock(&self, meeting: &Meeting) -> bool {
+        meeting.v_n.abs() <= ZENO * -meeting.a_n * self.tick()
+    }
+
+    /// Whether a hop, pressed together, is one that coordinates and clock can tell from none.
+    pub(super) fn hops(&self, meeting: &Meeting) -> bool {
+        !self.hops_within_the_clock(meeting) && !meeting.hops_within_rounding(-meeting.a_n)
+    }
+
+    /// How high a hop may be (m) to be one of a series that is summed up: what coordinates resolve, at least, and out of
+    /// an overlap, which hides the rest of the series.
+    pub(super) fn small_hop(meeting: &Meeting) -> f64 {
+        (SMALL_HOP * meeting.reach).max(HOP * meeting.size()).max(-meeting.gap)
+    }
+
+    /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
+    /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end. Not
+    /// where nothing at all is lost.
+    fn hums(&self, model: &Model, (kind, a, b): Key) -> bool {
+        let law = &model.law;
+        let beside = |wall| {
+            touch(&model.faces[wall], self.flight.line(a).x, self.flight.line(a).r).gap
+                <= SMALL_HOP * self.flight.line(a).r
+        };
+        kind == Kind::Wall
+            && law.wall_restitution == 1.0
+            && !(law.restitution == 1.0 && law.tangential == 1.0)
+            && (law.tangential == 1.0
+                || self.rests.count(a) > 0
+                || (0..model.faces.len()).any(|wall| wall != b && beside(wall)))
+    }
+}

@@ -1,0 +1,153 @@
+//! One instant: chains of impacts while the clock stands still, which of them never end, and when a run gives up.
+//!
+//! A chain that ends, however long, is computed to its end: a light ball between a wall and a heavy one is hit π √(M/m)
+//! times (Galperin 2003), and restitution just below 1 changes that little. A chain that never ends, inelastic collapse
+//! (McNamara, Young 1992), multiplies every approach speed by a factor below 1 again and again, so that its limit is that
+//! nothing approaches. So a contact has collapsed when it approaches by no more than rounding leaves of the fastest approach that
+//! it made at this instant: what is left of the chain, one that ends included, is then lost in the rounding of what it did.
+
+use std::collections::BTreeMap;
+
+use super::Exact;
+use super::impact::Meeting;
+use crate::physics::contact::Key;
+use crate::physics::detector::Detector;
+use crate::physics::{Kind, Model, Stall, State};
+
+/// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
+pub(super) const LONG_CHAIN: u64 = 1000;
+
+/// Releases of one contact without the clock advancing after which it is held for a moment.
+const STUCK: u32 = 20;
+
+/// What an impact counts that moves its bodies by more than rounding, and any other event, towards the limits below.
+const IMPACT: u64 = 1;
+const OTHER: u64 = 100;
+
+/// How much may happen without the clock advancing before the run ends: a million events, or a hundred million impacts.
+/// Each sphere adds a thousand events.
+const MOST_AT_ONCE: u64 = 1_000_000 * OTHER;
+
+/// How much may happen before the clock must have advanced by more than rounding.
+const STRETCH: u64 = 20 * MOST_AT_ONCE;
+
+/// Share of the time scale of its fastest sphere below which a run's clock counts as at its zero: 2⁻⁸.
+const BEGINNING: f64 = 1.0 / 256.0;
+
+/// Below this share of the fastest approach of a chain, an approach is rounding.
+const ROUNDING: f64 = f64::EPSILON;
+
+/// Approaches below this share of the speeds of their bodies are rounding: 64 ulp.
+const LOST: f64 = 64.0 * f64::EPSILON;
+
+/// What happened without the clock advancing.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Instant {
+    pub(super) events: u64,
+    /// What they count, and those of this stretch, which began at the time `since`, s.
+    spent: u64,
+    stretch: u64,
+    since: f64,
+    /// The fastest approach of each contact in a long chain, m/s.
+    fastest: BTreeMap<Key, f64>,
+    /// How often each contact has opened.
+    releases: BTreeMap<Key, u32>,
+}
+
+impl Instant {
+    /// Whether a contact of a chain that approaches at this speed (m/s) has collapsed.
+    pub(super) fn has_collapsed(&self, key: Key, approach_speed: f64) -> bool {
+        self.fastest.get(&key).is_some_and(|&fastest| approach_speed <= ROUNDING * fastest)
+    }
+
+    /// The same of a contact that is about to collide once more.
+    pub(super) fn collapses(&mut self, key: Key, approach_speed: f64) -> bool {
+        if self.events <= LONG_CHAIN {
+            return false;
+        }
+        let fastest = self.fastest.entry(key).or_default();
+        *fastest = fastest.max(approach_speed);
+        self.has_collapsed(key, approach_speed)
+    }
+
+    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
+    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
+        let count = self.releases.entry(key).or_default();
+        *count += 1;
+        *count > STUCK
+    }
+
+    /// The event in progress is an impact that changes what its bodies do: no loop of rounding, but part of a chain.
+    fn count_impact(&mut self) {
+        self.spent = self.spent.saturating_sub(OTHER - IMPACT);
+        self.stretch = self.stretch.saturating_sub(OTHER - IMPACT);
+    }
+}
+
+/// The time that matters first after the start, s: a small share of what the first sphere takes to fall, or to go, by its
+/// radius. It only keeps the clock from being taken for infinitely fine at its zero; 0 if nothing moves.
+pub(super) fn beginning(model: &Model, state: &State) -> f64 {
+    let of = |i: usize| {
+        let r = model.radii[i];
+        (r / model.acceleration(i).length()).sqrt().min(r / state.v[i].length())
+    };
+    let first = (0..model.len()).map(of).fold(f64::INFINITY, f64::min);
+    if first.is_finite() { BEGINNING * first } else { 0.0 }
+}
+
+impl<D: Detector> Exact<D> {
+    /// The clock goes on to `time`, s; says so if it does not for too many events.
+    pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
+        let Exact { instant, now, beginning, .. } = self;
+        if time > *now {
+            *now = time;
+            (instant.events, instant.spent) = (0, 0);
+            if !instant.fastest.is_empty() || !instant.releases.is_empty() {
+                instant.fastest.clear();
+                instant.releases.clear();
+            }
+        }
+        instant.events += 1;
+        instant.spent += OTHER;
+        instant.stretch += OTHER;
+        let more = 1000 * OTHER * spheres as u64;
+        if instant.spent > MOST_AT_ONCE + more {
+            return Err(self.no_progress());
+        }
+        if instant.stretch > STRETCH + more {
+            // a nanosecond of the time scale: what a hundred million such stretches would still not leave behind
+            if *now - instant.since < 1e-9 * now.abs().max(*beginning) {
+                return Err(self.no_progress());
+            }
+            (instant.stretch, instant.since) = (0, *now);
+        }
+        Ok(())
+    }
+
+    fn no_progress(&self) -> Stall {
+        let reason = format!(
+            "Events went on and on at t = {} s without the clock advancing; set a larger rest_speed, or change the method from here.",
+            self.now
+        );
+        Stall { time: self.now, kind: "no-progress", reason }
+    }
+
+    /// Rounding of the clock, s.
+    pub(super) fn tick(&self) -> f64 {
+        let t = self.now.abs().max(self.beginning);
+        t.next_up() - t
+    }
+
+    /// Tells an impact in a long chain from a loop of rounding.
+    pub(super) fn count_impact(&mut self, meeting: &Meeting) {
+        if self.instant.events <= LONG_CHAIN && self.instant.stretch < MOST_AT_ONCE {
+            return;
+        }
+        let (kind, a, b) = meeting.key;
+        let other = if kind == Kind::Pair { self.flight.line(b).v.length() } else { 0.0 };
+        if -meeting.v_n > LOST * (self.flight.line(a).v.length() + other) {
+            self.instant.count_impact();
+        }
+    }
+}
