@@ -57,8 +57,8 @@ impl<D: Detector> Exact<D> {
                 }
             };
             match &self.cells {
-                None => (0..model.faces.len()).for_each(&mut wall),
-                Some(cells) => cells.walls_near(*spot).iter().for_each(|&w| wall(w as usize)),
+                Some(cells) if !spot.is_loose() => cells.walls_near(*spot).iter().for_each(|&w| wall(w as usize)),
+                _ => (0..model.faces.len()).for_each(&mut wall),
             }
             let mut pair = |seat: usize| {
                 let (j, other) = (records[seat].sphere as usize, &records[seat].line);
@@ -70,7 +70,7 @@ impl<D: Detector> Exact<D> {
             match &self.cells {
                 None => (i + 1..records.len()).for_each(&mut pair),
                 Some(cells) => {
-                    cells.around(*spot, &mut near);
+                    cells.look(*spot, None, &mut near, records.len());
                     near.seats().iter().for_each(|&seat| pair(seat as usize));
                 }
             }

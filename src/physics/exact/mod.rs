@@ -21,6 +21,7 @@ mod prediction;
 mod queue;
 mod replay;
 mod rest;
+mod review;
 mod roots;
 mod scout;
 mod strike;
@@ -42,6 +43,7 @@ use near::Near;
 use prediction::Sort;
 use queue::Queue;
 use replay::{Origin, Replay};
+use review::Wear;
 pub(super) use roots::Roots;
 use scout::Scout;
 
@@ -59,6 +61,10 @@ pub(super) const DESCRIPTION: Description = Description {
 /// Spheres beyond this many are kept in cells.
 const FEW: usize = 64;
 
+/// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
+/// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
+const MOST_IDLE: f64 = (1_u64 << 30) as f64;
+
 /// The event-driven method at work.
 #[derive(Debug, Clone)]
 pub(super) struct Exact<D> {
@@ -67,6 +73,8 @@ pub(super) struct Exact<D> {
     /// Time of the last event, s.
     now: f64,
     frame: Frame,
+    /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
+    goal: f64,
     flight: Flight,
     /// By seat.
     queue: Queue,
@@ -77,8 +85,7 @@ pub(super) struct Exact<D> {
     until: f64,
     /// Lent to whoever looks around.
     near: Option<Box<Near>>,
-    /// Crossings since the spheres were seated.
-    crossings: usize,
+    wear: Wear,
     scout: Scout,
     lanes: Lanes,
     rests: Rests,
@@ -120,13 +127,14 @@ impl<D: Detector> Engine for Exact<D> {
             detector: D::new(settings),
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
+            goal: f64::NEG_INFINITY,
             flight: Flight::new(model, &state),
             queue: Queue::new(count),
             next: None,
-            cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
+            cells: None,
             until: f64::INFINITY,
             near: Some(Box::new(Near::nobody())),
-            crossings: 0,
+            wear: Wear::new(count, state.t),
             scout: Scout::default(),
             lanes: Lanes::new(),
             rests: Rests::default(),
@@ -137,7 +145,9 @@ impl<D: Detector> Engine for Exact<D> {
             resumes: None,
             replay: None,
         };
-        exact.enter_cubes();
+        if count > FEW {
+            exact.lay_out(model);
+        }
         exact.load(model, log);
         exact.flight.forget();
         exact
@@ -147,6 +157,10 @@ impl<D: Detector> Engine for Exact<D> {
         if self.resumes.is_some() && !self.catch_up(model, work) {
             return Progress::Yielded;
         }
+        self.goal = match until {
+            Until::Time(t) if t.is_finite() && t - self.frame.time > MOST_IDLE * self.settings.dt => t,
+            _ => f64::NEG_INFINITY,
+        };
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -260,7 +274,7 @@ impl<D: Detector> Exact<D> {
             self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, self.now));
         }
-        let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
+        let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up()).max(self.goal).min(f64::MAX);
         if time > end {
             self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, end));
@@ -271,6 +285,9 @@ impl<D: Detector> Exact<D> {
             Sort::Contact => self.contact(model, log, seat)?,
             Sort::End => self.end_parabola(model, self.flight.sphere(seat)),
             Sort::Crossing => self.cross(model, seat),
+        }
+        if self.wear.is_worn() {
+            self.review(model);
         }
         Ok(Turn::Event)
     }
