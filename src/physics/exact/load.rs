@@ -24,7 +24,7 @@ impl<D: Detector> Exact<D> {
             self.predict(model, i);
         }
         for _ in 0..MOST_AT_LOAD {
-            let next = self.queue.first(|_, _| false).0;
+            let next = self.queue.earliest().0;
             let idle = next > self.now && !self.rests.is_dirty();
             if idle || self.turn(model, log).is_err() {
                 break;

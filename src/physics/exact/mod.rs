@@ -25,6 +25,7 @@ mod review;
 mod roots;
 mod scout;
 mod strike;
+mod ties;
 
 use std::borrow::Cow;
 
@@ -46,6 +47,7 @@ use replay::{Origin, Replay};
 use review::Wear;
 pub(super) use roots::Roots;
 use scout::Scout;
+use ties::Ties;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -80,6 +82,7 @@ pub(super) struct Exact<D> {
     queue: Queue,
     /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
     next: Option<(f64, usize)>,
+    ties: Ties,
     cells: Option<Box<Cells>>,
     /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
     until: f64,
@@ -131,6 +134,7 @@ impl<D: Detector> Engine for Exact<D> {
             flight: Flight::new(model, &state),
             queue: Queue::new(count),
             next: None,
+            ties: Ties::none(),
             cells: None,
             until: f64::INFINITY,
             near: Some(Box::new(Near::nobody())),
@@ -253,18 +257,12 @@ impl<D: Detector> Exact<D> {
         Turn::Frame
     }
 
-    /// The earliest event and the seat it is entered for.
-    fn first(&self) -> (f64, usize) {
-        self.queue.first(|one, other| {
-            let plan = &self.flight.records[one].plan;
-            let time = plan.contact.min(plan.crossing).min(self.rests.end_led_by(self.flight.sphere(one)));
-            self.rank(time, one) < self.rank(time, other)
-        })
-    }
-
     /// One event, or the end of the frame.
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
-        let (time, seat) = self.next.take().unwrap_or_else(|| self.first());
+        let (time, seat) = match self.next.take() {
+            Some(next) => next,
+            None => self.first(),
+        };
         let next = self.sort(time, seat);
         if self.rests.is_dirty() && (time > self.now || next != Sort::Contact) {
             self.settle(model, log)?;

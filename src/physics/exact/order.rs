@@ -24,6 +24,7 @@ impl<D: Detector> Exact<D> {
             cells.fill(self.flight.records.iter().map(|record| record.spot.place));
         }
         self.next = None;
+        self.forget_ties();
         for seat in 0..order.len() {
             self.schedule(seat);
         }

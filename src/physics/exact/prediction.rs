@@ -135,15 +135,19 @@ impl<D: Detector> Exact<D> {
 
     /// Enters the earliest of a sphere's plan and its island's end into the queue.
     pub(super) fn schedule(&mut self, seat: usize) {
-        self.queue.set(seat, self.due(seat));
+        let due = self.due(seat);
+        self.queue.set(seat, due);
         self.next = None;
+        self.tie(seat, due);
     }
 
     /// The same where the event that is handled was entered for this seat, and everything else is entered already: then
     /// it is known what comes next.
     #[inline]
     fn schedule_first(&mut self, seat: usize) {
-        self.next = self.queue.replace_first(seat, self.due(seat));
+        let due = self.due(seat);
+        self.next = self.queue.replace_first(seat, due);
+        self.tie(seat, due);
     }
 
     #[inline]
