@@ -197,7 +197,7 @@ mod tests {
     /// Points of a fixed Weyl sequence in a box of this size.
     fn cloud(n: usize, size: DVec3) -> Vec<DVec3> {
         let at = |k: usize, step: f64| (k as f64 * step).fract();
-        let step = dvec3(0.754_877_666_246_693, 0.569_840_290_998_053, 0.324_717_957_244_746);
+        let step = dvec3(0.819_172_513_396_164, 0.671_043_606_703_789, 0.549_700_477_901_970);
         (1..=n).map(|k| size * dvec3(at(k, step.x), at(k, step.y), at(k, step.z))).collect()
     }
 
@@ -208,7 +208,7 @@ mod tests {
                 let x: Vec<DVec3> = cloud(1000, DVec3::splat(unit));
                 let layout = Layout::new(&x, radius * unit);
                 let cubes = cubes(bounds(&x).size(), layout.edge);
-                assert!((900.0..=2000.0).contains(&cubes), "{cubes} cubes at {radius}");
+                assert!((900.0..=2000.0).contains(&cubes), "{cubes} cubes at {radius:e}");
                 let plain = Layout::new(&cloud(1000, DVec3::ONE), radius);
                 assert_eq!((layout.edge / unit, layout.size), (plain.edge, plain.size), "powers of two are exact");
             }
