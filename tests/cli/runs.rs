@@ -110,3 +110,32 @@ fn a_run_that_cannot_go_on_writes_what_it_has_and_says_why() {
     let collisions = fs::read_to_string(events).expect("the events").matches(",collide\n").count();
     assert_eq!(line.impacts, collisions as u64);
 }
+
+#[test]
+fn scenes_with_nobody_or_few_go_through_every_command_and_method() {
+    let walls = "Room(min: (-5, -5, -5), max: (5, 5, 5))";
+    let gas = |count: usize| {
+        format!("Gas(min: (-4, -4, -4), max: (4, 4, 4), count: {count}, seed: 1, speed: 1, mass: 1, radius: 0.1)")
+    };
+    let one = "Sphere(x: (0, 0, 0), v: (1, 0, 0), mass: 1, radius: 0.5)";
+    let cases = [("", String::new()), (walls, String::new()), ("", one.into()), (walls, gas(64)), (walls, gas(65))];
+    let folder = folder();
+    for (k, (walls, spheres)) in cases.iter().enumerate() {
+        let path = folder.path().join(format!("few-{k}.ron"));
+        let contact = "contact: (restitution: 1, tangential: 1, rest_speed: 0)";
+        let text = format!("Scene(name: \"few\", duration: 1, {contact}, walls: [{walls}], spheres: [{spheres}])");
+        fs::write(&path, text).expect("a scene file");
+        let path = path.to_str().expect("a plain name");
+        for method in ["paper", "exact", "swept", "moreau"] {
+            let ran = carom(&["run", path, "--method", method, "--dt", "0.1", "--tolerance", "0.01"]).succeeds();
+            let line = closing(&ran.out);
+            assert_eq!((line.t, line.stall), (1.0, None), "{method}: {}", ran.out);
+            carom(&["render", path, "--at", "1", "--method", method]).succeeds();
+            carom(&["--text", path, "--method", method]).succeeds();
+        }
+        if *walls == "" || spheres.is_empty() {
+            carom(&["run", path, "--accuracy", "1e-3"]).succeeds();
+            carom(&["measure", path]).succeeds();
+        }
+    }
+}

@@ -12,10 +12,12 @@ use glam::DVec3;
 
 use super::lanes::Lanes;
 use super::near::{MOST_NEAR, Near, ROOM};
-use crate::geometry::Bounds;
-use crate::physics::State;
 use crate::physics::contact_time::{Path, quadratic_fall};
 use crate::physics::model::Model;
+pub(super) use layout::Layout;
+
+pub(super) mod layout;
+mod walls;
 
 /// Cubes are not counted beyond this: the outermost reach to infinity, where coordinates could not tell them apart.
 const OUTERMOST: i32 = 1 << 28;
@@ -46,6 +48,16 @@ pub(super) type Cube = [i32; 3];
 pub(super) struct Spot {
     pub(super) cube: Cube,
     pub(super) place: u32,
+}
+
+impl Spot {
+    /// In no cube.
+    pub(super) const LOOSE: Spot = Spot { cube: [0; 3], place: u32::MAX };
+
+    #[inline]
+    pub(super) fn is_loose(self) -> bool {
+        self.place == u32::MAX
+    }
 }
 
 /// A sphere leaves its cube: the axis, and +1 or −1.
@@ -92,35 +104,45 @@ pub(super) struct Cells {
     size: [i32; 3],
     /// From one place to the next along each axis.
     strides: [u32; 3],
+    /// The largest radius of a sphere in the table, m.
+    widest: f64,
     places: Vec<Place>,
     /// The seat spilled before this one into the same place; empty as long as none is.
     next: Vec<u32>,
+    /// How many are spilled.
+    spilled: usize,
+    /// Seats of the spheres that are in no cube: all look at them.
+    loose: Vec<u32>,
     /// Walls near the cubes of place p: `walls[starts[p]..starts[p + 1]]`, ascending.
     starts: Vec<u32>,
     walls: Vec<u32>,
 }
 
 impl Cells {
-    /// Cells for the spheres of `state`, still empty, and the walls in every cube they come near.
-    pub(super) fn new(model: &Model, state: &State) -> Cells {
-        let widest = model.radii.iter().copied().fold(0.0, f64::max);
-        let around = |i: usize| Bounds { min: state.x[i], max: state.x[i] };
-        let room = Bounds::of((0..state.x.len()).map(around)).unwrap_or(Bounds { min: DVec3::ZERO, max: DVec3::ONE });
-        let edge = edge(2.0 * widest * (1.0 + 1e-6), room.size(), state.x.len());
-        let size = table(room.size() / edge, state.x.len());
+    /// An empty table, and the walls in every cube from which a sphere of it touches them.
+    pub(super) fn new(model: &Model, layout: Layout) -> Cells {
+        let Layout { origin, edge, size, widest } = layout;
         let mut cells = Cells {
-            origin: room.min,
+            origin,
             edge,
             size,
+            widest,
             strides: [1, size[0] as u32, size[0] as u32 * size[1] as u32],
             places: vec![Place::EMPTY; size.iter().map(|&n| n as usize).product()],
             next: Vec::new(),
+            spilled: 0,
+            loose: Vec::new(),
             starts: Vec::new(),
             walls: Vec::new(),
         };
         cells.mark_borders();
-        cells.register(model, widest);
+        cells.register(model);
         cells
+    }
+
+    /// How it was laid out.
+    pub(super) fn layout(&self) -> Layout {
+        Layout { origin: self.origin, edge: self.edge, size: self.size, widest: self.widest }
     }
 
     fn mark_borders(&mut self) {
@@ -136,13 +158,60 @@ impl Cells {
     /// Fills the table with spheres in these places, seat by seat, and with no others.
     pub(super) fn fill(&mut self, places: impl ExactSizeIterator<Item = u32>) {
         self.places.iter_mut().for_each(Place::empty);
+        self.loose.clear();
+        self.spilled = 0;
         if !self.next.is_empty() {
             self.next = vec![NOBODY; places.len()];
         }
         let seats = places.len();
         for (seat, place) in places.enumerate() {
-            self.link(seat, place, seats);
+            self.enter(seat, place, seats);
         }
+    }
+
+    /// Enters a seat, one of so many, in a place or among the loose ones.
+    pub(super) fn enter(&mut self, seat: usize, place: u32, seats: usize) {
+        match (Spot { place, ..Spot::default() }).is_loose() {
+            true => self.loose.push(seat as u32),
+            false => self.link(seat, place, seats),
+        }
+    }
+
+    /// Takes a seat from where it was entered.
+    pub(super) fn leave(&mut self, seat: usize, place: u32) {
+        match (Spot { place, ..Spot::default() }).is_loose() {
+            true => self.loose.retain(|&other| other as usize != seat),
+            false => self.unlink(seat as u32, place),
+        }
+    }
+
+    /// Whom a sphere in a cube may meet: who is around it, or came within reach when it went `way` into it, and who is in
+    /// no cube; everybody, if it is in none itself. Whoever is in no cube has been looked at before a crossing.
+    #[inline]
+    pub(super) fn look(&self, spot: Spot, way: Option<Way>, near: &mut Near, seats: usize) {
+        match way {
+            _ if spot.is_loose() => near.everybody(seats),
+            Some(way) => self.ahead(spot, way, near),
+            None => {
+                self.around(spot, near);
+                self.loose.iter().for_each(|&seat| near.push(seat));
+            }
+        }
+    }
+
+    /// Whether so many share places that looking around costs more than it should.
+    pub(super) fn is_crowded(&self, seats: usize) -> bool {
+        8 * self.spilled > seats
+    }
+
+    /// The largest radius of a sphere in a cube, m.
+    pub(super) fn widest(&self) -> f64 {
+        self.widest
+    }
+
+    /// How wide a cube is, m.
+    pub(super) fn edge(&self) -> f64 {
+        self.edge
     }
 
     /// Walls near a cube, ascending.
@@ -332,6 +401,7 @@ impl Cells {
         }
         self.next[seat] = place.spilled();
         place.spill(seat as u32);
+        self.spilled += 1;
     }
 
     fn unlink(&mut self, seat: u32, number: u32) {
@@ -350,11 +420,13 @@ impl Cells {
         } else {
             place.0[slot] = spilled;
             place.spill(self.next[spilled as usize]);
+            self.spilled -= 1;
         }
     }
 
     /// Takes a seat that found no slot off its chain.
     fn unspill(&mut self, number: usize, seat: u32) {
+        self.spilled -= 1;
         let after = self.next[seat as usize];
         let place = &mut self.places[number];
         if place.spilled() == seat {
@@ -386,86 +458,11 @@ impl Cells {
         // a float beyond i32 becomes its end, and the clamp brings it in
         [0, 1, 2].map(|axis| (index(axis) as i32).clamp(-OUTERMOST, OUTERMOST))
     }
-
-    /// Lists each wall in every place whose cubes it comes within `reach` (m) of.
-    fn register(&mut self, model: &Model, reach: f64) {
-        let mut near: Vec<(u32, u32)> = Vec::new();
-        for (wall, face) in model.faces.iter().enumerate() {
-            let bounds = face.shape.bounds().grown(reach * (1.0 + 1e-6));
-            let (low, high) = (self.cube_of(bounds.min), self.cube_of(bounds.max));
-            let folded = |axis: usize| i64::from(high[axis]) - i64::from(low[axis]) >= i64::from(self.size[axis]) - 1;
-            let wraps = (0..3).any(folded);
-            let range = |axis: usize| {
-                if folded(axis) { 0..=self.size[axis] - 1 } else { low[axis]..=high[axis] }
-            };
-            // half the cube's extent along the wall's normal
-            let n = face.normal.abs();
-            let half = 0.5 * self.edge * (n.x + n.y + n.z) * (1.0 + 1e-6) + reach * (1.0 + 1e-6);
-            for x in range(0) {
-                for y in range(1) {
-                    for z in range(2) {
-                        let middle = DVec3::new(f64::from(x) + 0.5, f64::from(y) + 0.5, f64::from(z) + 0.5);
-                        let far = face.height(self.origin + middle * self.edge).abs() > half;
-                        // a folded range stands for many cubes: the plane's distance tells nothing
-                        if wraps || !far || self.is_rim([x, y, z]) {
-                            near.push((self.place([x, y, z]), wall as u32));
-                        }
-                    }
-                }
-            }
-        }
-        near.sort_unstable();
-        near.dedup();
-        self.starts = vec![0; self.places.len() + 1];
-        for &(place, _) in &near {
-            self.starts[place as usize + 1] += 1;
-        }
-        for place in 0..self.places.len() {
-            self.starts[place + 1] += self.starts[place];
-        }
-        for &(place, _) in &near {
-            self.places[place as usize].0[SLOTS] |= WALLS;
-        }
-        self.walls = near.into_iter().map(|(_, wall)| wall).collect();
-    }
-
-    fn is_rim(&self, cube: Cube) -> bool {
-        cube.iter().any(|c| c.abs() == OUTERMOST)
-    }
 }
 
 /// When a sphere with speed `v` (m/s) towards a border `left` (m) away crosses it, s.
 fn straight_exit(left: f64, v: f64) -> Option<f64> {
     (v > 0.0).then(|| left.max(0.0) / v)
-}
-
-/// Edge of a cube, m: the widest reach, or wider where spheres are sparse, so that there are about two cubes a sphere.
-fn edge(reach: f64, size: DVec3, count: usize) -> f64 {
-    let mut edge = reach;
-    // doubling by √2 keeps to operations that are the same everywhere
-    for _ in 0..200 {
-        let cubes = (size / edge + DVec3::ONE).to_array().iter().product::<f64>();
-        if cubes <= 2.0 * count as f64 {
-            break;
-        }
-        edge *= 1.0905;
-    }
-    edge.min(1.6 * reach)
-}
-
-/// The table's size along each axis: enough for the spheres' box, a cube more all around it and a border, no more than some cubes a sphere.
-fn table(cubes: DVec3, count: usize) -> [i32; 3] {
-    let limit = (4 * count).max(8192) as f64;
-    // a float beyond i32 becomes its end
-    let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 5);
-    while size.iter().copied().map(f64::from).product::<f64>() > limit {
-        let longest = (0..3).max_by_key(|&axis| size[axis]).unwrap_or(0);
-        if size[longest] <= 4 {
-            break;
-        }
-        size[longest] = size[longest] / 2 + 1;
-    }
-    size.map(|n| n.max(4))
 }
 
 /// Orders cubes so that neighbours are near: 4 × 4 × 4 of them, then the next.

@@ -30,7 +30,7 @@ impl<D: Detector> Exact<D> {
             self.predict(model, i);
         }
         for _ in 0..MOST_AT_LOAD {
-            let next = self.queue.first(|_, _| false).0;
+            let next = self.queue.earliest().0;
             let idle = next > self.now && !self.rests.is_dirty();
             if idle || self.turn(model, log).is_err() {
                 break;
@@ -74,7 +74,7 @@ impl<D: Detector> Exact<D> {
             match &self.cells {
                 None => (i + 1..records.len()).for_each(&mut pair),
                 Some(cells) => {
-                    cells.around(*spot, &mut near);
+                    cells.look(*spot, None, &mut near, records.len());
                     near.seats().iter().for_each(|&seat| pair(seat as usize));
                 }
             }

@@ -23,11 +23,13 @@ mod prediction;
 mod queue;
 mod replay;
 mod rest;
+mod review;
 mod roots;
 mod scout;
 mod series;
 mod squeezed;
 mod strike;
+mod ties;
 
 use std::borrow::Cow;
 
@@ -46,8 +48,10 @@ use near::Near;
 use prediction::Sort;
 use queue::Queue;
 use replay::{Origin, Replay};
+use review::Wear;
 pub(super) use roots::Roots;
 use scout::Scout;
+use ties::Ties;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -63,6 +67,10 @@ pub(super) const DESCRIPTION: Description = Description {
 /// Spheres beyond this many are kept in cells.
 const FEW: usize = 64;
 
+/// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
+/// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
+const MOST_IDLE: f64 = (1_u64 << 30) as f64;
+
 /// The event-driven method at work.
 #[derive(Debug, Clone)]
 pub(super) struct Exact<D> {
@@ -71,18 +79,20 @@ pub(super) struct Exact<D> {
     /// Time of the last event, s.
     now: f64,
     frame: Frame,
+    /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
+    goal: f64,
     flight: Flight,
     /// By seat.
     queue: Queue,
     /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
     next: Option<(f64, usize)>,
+    ties: Ties,
     cells: Option<Box<Cells>>,
     /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
     until: f64,
     /// Lent to whoever looks around.
     near: Option<Box<Near>>,
-    /// Crossings since the spheres were seated.
-    crossings: usize,
+    wear: Wear,
     scout: Scout,
     lanes: Lanes,
     rests: Rests,
@@ -128,13 +138,15 @@ impl<D: Detector> Engine for Exact<D> {
             detector: D::new(settings),
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
+            goal: f64::NEG_INFINITY,
             flight: Flight::new(model, &state),
             queue: Queue::new(count),
             next: None,
-            cells: (count > FEW).then(|| Box::new(Cells::new(model, &state))),
+            ties: Ties::none(),
+            cells: None,
             until: f64::INFINITY,
             near: Some(Box::new(Near::nobody())),
-            crossings: 0,
+            wear: Wear::new(count, state.t),
             scout: Scout::default(),
             lanes: Lanes::new(),
             rests: Rests::default(),
@@ -147,7 +159,9 @@ impl<D: Detector> Engine for Exact<D> {
             resumes: None,
             replay: None,
         };
-        exact.enter_cubes();
+        if count > FEW {
+            exact.lay_out(model);
+        }
         exact.load(model, log);
         exact.flight.forget();
         exact
@@ -157,6 +171,10 @@ impl<D: Detector> Engine for Exact<D> {
         if self.resumes.is_some() && !self.catch_up(model, work) {
             return Progress::Yielded;
         }
+        self.goal = match until {
+            Until::Time(t) if t.is_finite() && t - self.frame.time > MOST_IDLE * self.settings.dt => t,
+            _ => f64::NEG_INFINITY,
+        };
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -249,18 +267,12 @@ impl<D: Detector> Exact<D> {
         Turn::Frame
     }
 
-    /// The earliest event and the seat it is entered for.
-    fn first(&self) -> (f64, usize) {
-        self.queue.first(|one, other| {
-            let plan = &self.flight.records[one].plan;
-            let time = plan.contact.min(plan.crossing).min(self.rests.end_led_by(self.flight.sphere(one)));
-            self.rank(time, one) < self.rank(time, other)
-        })
-    }
-
     /// One event, or the end of the frame.
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
-        let (time, seat) = self.next.take().unwrap_or_else(|| self.first());
+        let (time, seat) = match self.next.take() {
+            Some(next) => next,
+            None => self.first(),
+        };
         let next = self.sort(time, seat);
         if self.rests.is_dirty() && (time > self.now || next != Sort::Contact) {
             self.settle(model, log)?;
@@ -270,7 +282,7 @@ impl<D: Detector> Exact<D> {
             self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, self.now));
         }
-        let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up());
+        let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up()).max(self.goal).min(f64::MAX);
         if time > end {
             self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, end));
@@ -281,6 +293,9 @@ impl<D: Detector> Exact<D> {
             Sort::Contact => self.contact(model, log, seat)?,
             Sort::End => self.end_parabola(model, self.flight.sphere(seat)),
             Sort::Crossing => self.cross(model, seat),
+        }
+        if self.wear.is_worn() {
+            self.review(model);
         }
         Ok(Turn::Event)
     }

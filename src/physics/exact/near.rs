@@ -36,6 +36,13 @@ impl Near {
         (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
     }
 
+    /// All of so many seats.
+    pub(super) fn everybody(&mut self, seats: usize) {
+        self.seats.resize(self.seats.len().max(seats + 5), 0);
+        (0_u32..).zip(&mut self.seats[..seats]).for_each(|(seat, place)| *place = seat);
+        self.count = seats;
+    }
+
     pub(super) fn push(&mut self, seat: u32) {
         self.seats[self.count] = seat;
         self.count += 1;

@@ -4,29 +4,9 @@ use super::Exact;
 use super::cells::nearness;
 use crate::physics::detector::Detector;
 
-/// Crossings per sphere after which the spheres are seated anew: they have gone some cubes from their seats by then.
-const CROSSINGS: usize = 3;
-
 impl<D: Detector> Exact<D> {
-    /// Counts a crossing, and seats the spheres anew when there were many: when, follows from the run alone.
-    pub(super) fn count_crossing(&mut self) {
-        self.crossings += 1;
-        if self.crossings > CROSSINGS * self.flight.records.len() {
-            self.reseat();
-        }
-    }
-
-    /// Finds the cube of every sphere at the start, and seats the spheres.
-    pub(super) fn enter_cubes(&mut self) {
-        let Some(cells) = &self.cells else { return };
-        for record in &mut self.flight.records {
-            record.spot = cells.spot(record.line.x);
-        }
-        self.reseat();
-    }
-
     /// Seats the spheres by their cubes.
-    fn reseat(&mut self) {
+    pub(super) fn reseat(&mut self) {
         let flight = &self.flight;
         let key = |seat: usize| {
             let record = &flight.records[seat];
@@ -43,7 +23,8 @@ impl<D: Detector> Exact<D> {
         if let Some(cells) = &mut self.cells {
             cells.fill(self.flight.records.iter().map(|record| record.spot.place));
         }
-        (self.crossings, self.next) = (0, None);
+        self.next = None;
+        self.forget_ties();
         for seat in 0..order.len() {
             self.schedule(seat);
         }

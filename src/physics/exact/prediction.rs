@@ -79,13 +79,16 @@ impl<D: Detector> Exact<D> {
         let path = self.flight.path_from(seat, self.now);
         self.until = self.rests.end_of(self.flight.sphere(seat)).next_up();
         let mut plan = Plan::IDLE;
-        self.evaluations += if self.cells.is_some() {
+        self.catch(seat);
+        let count = if self.cells.is_some() {
             self.meet_near(model, seat, &path, None, &mut plan)
         } else {
             let others = (0..model.len()).filter(|&other| other != seat);
             self.walls(model, seat, &path, 0..model.faces.len(), &mut plan)
                 + others.map(|other| self.pair(seat, &path, other, &mut plan)).sum::<u64>()
         };
+        self.evaluations += count;
+        self.wear.look(count);
         self.flight.records[seat].plan = plan;
     }
 
@@ -98,10 +101,11 @@ impl<D: Detector> Exact<D> {
         let record = &mut flight.records[seat];
         let mut plan = record.plan;
         record.spot = cells.cross(seat, record.spot, plan.way, seats);
-        self.evaluations += self.meet_near(model, seat, &path, Some(plan.way), &mut plan);
+        let count = self.meet_near(model, seat, &path, Some(plan.way), &mut plan);
+        self.evaluations += count;
+        self.wear.cross(count);
         self.flight.records[seat].plan = plan;
         self.schedule_first(seat);
-        self.count_crossing();
     }
 
     /// Looks at the spheres around a sphere's cube and at the walls near it, or only at those that came within reach
@@ -110,16 +114,18 @@ impl<D: Detector> Exact<D> {
         let Some(cells) = &self.cells else { return 0 };
         let spot = self.flight.records[seat].spot;
         let Some(mut near) = self.near.take() else { return 0 };
-        match way {
-            None => cells.around(spot, &mut near),
-            Some(way) => cells.ahead(spot, way, &mut near),
-        }
-        let (crossing, way) = cells.crossing(spot.cube, path);
-        (plan.crossing, plan.way) = (self.now + crossing, way);
-        let walls = cells.walls_near(spot).iter().map(|&wall| wall as usize);
+        cells.look(spot, way, &mut near, self.flight.records.len());
         // pairs first where that is quick: what they are to meet soon spares most walls the search for edges
         let early = if D::SOLVES { self.pairs(seat, path, &mut near, plan) } else { 0 };
-        let mut count = early + self.walls(model, seat, path, walls, plan);
+        let mut count = early;
+        if spot.is_loose() {
+            count += self.walls(model, seat, path, 0..model.faces.len(), plan);
+        } else {
+            let (crossing, way) = cells.crossing(spot.cube, path);
+            (plan.crossing, plan.way) = (self.now + crossing, way);
+            let walls = cells.walls_near(spot).iter().map(|&wall| wall as usize);
+            count += self.walls(model, seat, path, walls, plan);
+        }
         if !D::SOLVES {
             count += self.pairs(seat, path, &mut near, plan);
         }
@@ -129,15 +135,19 @@ impl<D: Detector> Exact<D> {
 
     /// Enters the earliest of a sphere's plan and its island's end into the queue.
     pub(super) fn schedule(&mut self, seat: usize) {
-        self.queue.set(seat, self.due(seat));
+        let due = self.due(seat);
+        self.queue.set(seat, due);
         self.next = None;
+        self.tie(seat, due);
     }
 
     /// The same where the event that is handled was entered for this seat, and everything else is entered already: then
     /// it is known what comes next.
     #[inline]
     fn schedule_first(&mut self, seat: usize) {
-        self.next = self.queue.replace_first(seat, self.due(seat));
+        let due = self.due(seat);
+        self.next = self.queue.replace_first(seat, due);
+        self.tie(seat, due);
     }
 
     #[inline]
@@ -150,8 +160,12 @@ impl<D: Detector> Exact<D> {
     /// What the entry of a seat at `time` stands for.
     #[inline]
     pub(super) fn sort(&self, time: f64, seat: usize) -> Sort {
+        if time == f64::INFINITY {
+            // nothing ever happens, perhaps because there is nobody
+            return Sort::Crossing;
+        }
         let record = &self.flight.records[seat];
-        if record.plan.contact == time && time < f64::INFINITY {
+        if record.plan.contact == time {
             Sort::Contact
         } else if !self.rests.is_empty() && self.rests.end_led_by(record.sphere as usize) == time {
             Sort::End

@@ -64,15 +64,16 @@ impl Queue {
         (winner != TIED).then_some((time, winner as usize))
     }
 
-    /// The earliest time and its seat; among equal times the one that `before` puts first; seat 0 if nothing ever
-    /// happens.
+    /// The earliest time, s, infinite if nothing ever happens; and its seat if it is the only one.
     #[inline]
-    pub(super) fn first(&self, before: impl Fn(usize, usize) -> bool) -> (f64, usize) {
-        match self.lanes.run(Winner { queue: self }) {
-            (f64::INFINITY, _) => (f64::INFINITY, 0),
-            (time, TIED) => (time, self.first_of_equals(time, before)),
-            (time, seat) => (time, seat as usize),
-        }
+    pub(super) fn earliest(&self) -> (f64, Option<usize>) {
+        let (time, winner) = self.lanes.run(Winner { queue: self });
+        (time, (winner != TIED).then_some(winner as usize))
+    }
+
+    /// When the event of a seat is, s.
+    pub(super) fn time_of(&self, seat: usize) -> f64 {
+        self.blocks[seat / FAN].0[seat % FAN]
     }
 
     /// Lists the events until `time` (s), no more than `most` or little more, level by level: what the next one will read
@@ -107,16 +108,10 @@ impl Queue {
         self.lanes.fetch(&self.blocks[seat / FAN]);
     }
 
-    /// Which of several seats with the earliest time `before` puts first.
+    /// Visits every seat with the earliest time, s.
     #[cold]
-    fn first_of_equals(&self, time: f64, before: impl Fn(usize, usize) -> bool) -> usize {
-        let mut best = usize::MAX;
-        self.descend(self.levels - 1, 0, time, &mut |seat| {
-            if best == usize::MAX || before(seat, best) {
-                best = seat;
-            }
-        });
-        best
+    pub(super) fn each_at(&self, time: f64, mut visit: impl FnMut(usize)) {
+        self.descend(self.levels - 1, 0, time, &mut visit);
     }
 
     fn descend(&self, level: usize, block: usize, time: f64, visit: &mut impl FnMut(usize)) {
@@ -210,17 +205,23 @@ mod tests {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let (i, time) = ((seed >> 33) as usize % count, ((seed >> 20) % 512) as f64);
             times[i] = time;
-            let first = queue.first(|a, b| a > b);
-            if first.1 == i {
+            let first = queue.earliest();
+            if first.1 == Some(i) {
                 let found = queue.replace_first(i, time);
-                assert!(found.is_none_or(|found| found == queue.first(|a, b| a > b)));
+                assert!(found.is_none_or(|(time, seat)| (time, Some(seat)) == queue.earliest()));
             } else {
                 queue.set(i, time);
             }
-            // ties go to the larger index here, to see that the order is the caller's
-            let expected = (0..count).rev().min_by(|&a, &b| times[a].total_cmp(&times[b])).expect("not empty");
-            let found = queue.first(|a, b| a > b);
-            assert_eq!(found, (times[expected], expected));
+            assert_eq!(queue.time_of(i), time);
+            let least = times.iter().copied().fold(f64::INFINITY, f64::min);
+            let expected: Vec<usize> = (0..count).filter(|&i| times[i] == least).collect();
+            let (found, only) = queue.earliest();
+            let mut all = Vec::new();
+            queue.each_at(found, |seat| all.push(seat));
+            assert_eq!((found, &all), (least, &expected));
+            // a tie may go unnoticed by the seat, never the other way round
+            assert!(only.is_none_or(|seat| expected == [seat]));
+            assert!(expected.len() > 1 || least == f64::INFINITY || only.is_some());
         }
     }
 }

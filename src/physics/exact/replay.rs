@@ -55,7 +55,7 @@ impl<D: Detector> Replay<D> {
     fn advance(&mut self, model: &Model, until: f64, work: u64) -> bool {
         let Replay { exact, log } = self;
         for _ in 0..work {
-            if exact.queue.first(|_, _| false).0 > until && !exact.rests.is_dirty() {
+            if exact.queue.earliest().0 > until && !exact.rests.is_dirty() {
                 return true;
             }
             if !exact.frame.open {

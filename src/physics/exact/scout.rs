@@ -44,7 +44,7 @@ fn crosses(record: &Record) -> bool {
 
 /// Where a sphere will look around.
 fn next_spot(cells: &Cells, record: &Record) -> Spot {
-    if crosses(record) { cells.beyond(record.spot, record.plan.way) } else { record.spot }
+    if crosses(record) && !record.spot.is_loose() { cells.beyond(record.spot, record.plan.way) } else { record.spot }
 }
 
 /// The seat of the sphere that it meets, if that comes first.
@@ -78,7 +78,10 @@ impl<D: Detector> Exact<D> {
                 self.queue.fetch(other);
             }
         }
-        let mut lines = |spot, way| {
+        let mut lines = |spot: Spot, way| {
+            if spot.is_loose() {
+                return;
+            }
             match way {
                 None => cells.around(spot, near),
                 Some(way) => cells.ahead(spot, way, near),

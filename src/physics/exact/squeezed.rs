@@ -53,8 +53,10 @@ impl<D: Detector> Exact<D> {
         let slack = touching(line.r, x.abs().max_element());
         let touches = |wall: &usize| touch(&model.faces[*wall], x, line.r).gap <= slack;
         match &self.cells {
-            None => (0..model.faces.len()).filter(touches).collect(),
-            Some(cells) => cells.walls_near(*spot).iter().map(|&wall| wall as usize).filter(touches).collect(),
+            Some(cells) if !spot.is_loose() => {
+                cells.walls_near(*spot).iter().map(|&wall| wall as usize).filter(touches).collect()
+            }
+            _ => (0..model.faces.len()).filter(touches).collect(),
         }
     }
 
