@@ -9,7 +9,7 @@ use super::super::log::Log;
 use super::super::motion::{Flight, with_flight};
 use super::super::{Class, Contact, Kind, Model, Stall, motion, overlap};
 use super::Moreau;
-use super::meeting::{Path, Row, Speeds, TOUCHING, Terms};
+use super::meeting::{Allowance, Path, Row, Speeds, TOUCHING, Terms};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -124,19 +124,53 @@ impl Moreau {
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
         let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
         let near = if round == 0 { terms.near(model, key) } else { 0.0 };
-        let Some(meeting) = path.meeting(near) else { return };
+        let left = terms.still(model, key);
+        let found = match key.0 {
+            Kind::Pair => path.meeting(near),
+            Kind::Wall => path.wall_meeting(near, Allowance { left, more: if round == 0 { 0.0 } else { left } }),
+        };
+        let Some(meeting) = found else { return };
         let closing = -meeting.normal.dot(path.velocity);
         let meets = closing * terms.h >= meeting.way;
         // What is reached only because something was struck in this frame collides at the speed it has by then.
         let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
         let approach = if round == 0 { before } else { before.max(closing) };
         let struck = meets && carried == 0.0 && approach > model.law.rest_speed;
-        let row = Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms);
-        if struck && key.0 == Kind::Wall {
-            let (free, n) = (&mut self.free[key.1], row.normal);
-            *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+        self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
+    }
+
+    /// Of the walls that a sphere has been found to meet in this round, keeps those that hold it already and the first
+    /// that it strikes, unless one holds it: whether it strikes the others too is seen on the path that these leave it.
+    /// So walls that share a point (seams, doubled walls) strike once. What strikes takes its share of the tangential
+    /// velocity.
+    fn keep_first_strikes(&mut self, model: &Model, known: usize) {
+        let mut first = known;
+        let mut kept = known;
+        while first < self.rows.len() {
+            let (kind, a, _) = self.rows[first].key;
+            let same = |row: &&Row| kind == Kind::Wall && row.key.0 == kind && row.key.1 == a;
+            let end = first + self.rows[first..].iter().take_while(same).count().max(1);
+            let earliest = (first..end).reduce(|best, k| if self.comes_before(k, best) { k } else { best });
+            for k in first..end {
+                let row = self.rows[k];
+                if kind == Kind::Pair || row.holds() || earliest == Some(k) {
+                    if row.class == Class::Collide && kind == Kind::Wall {
+                        let (free, n) = (&mut self.free[a], row.normal);
+                        *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+                    }
+                    self.rows[kept] = row;
+                    kept += 1;
+                }
+            }
+            first = end;
         }
-        self.rows.push(row);
+        self.rows.truncate(kept);
+    }
+
+    /// Whether row `k` of a sphere comes before row `best`: what is met earlier, of these what holds.
+    fn comes_before(&self, k: usize, best: usize) -> bool {
+        let (row, best) = (&self.rows[k], &self.rows[best]);
+        row.time < best.time || (row.time == best.time && row.holds() && !best.holds())
     }
 
     /// All candidates have been looked at: new rows are solved, with the others; without any the frame is complete.
@@ -145,6 +179,7 @@ impl Moreau {
         if complete || round >= MOST_ROUNDS {
             return self.close(model, log, complete && self.solver.converged);
         }
+        self.keep_first_strikes(model, known);
         self.rows.sort_unstable_by_key(|row| row.key);
         self.solver.begin(model, &self.free, &self.rows);
         self.stage = Stage::Solve { round };
