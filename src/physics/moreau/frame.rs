@@ -89,6 +89,7 @@ impl Moreau {
         with_flight!(model, flight => self.fall(flight, h));
         self.solution.clone_from(&self.free);
         self.rows.clear();
+        self.sunk.fill(0.0);
         self.solver.forget();
         let (free, v) = (&self.free, &self.end.v);
         let speed = |i: usize| free[i].length_squared().max(v[i].length_squared()).sqrt();
@@ -127,14 +128,16 @@ impl Moreau {
         let left = terms.still(model, key);
         let found = match key.0 {
             Kind::Pair => path.meeting(near),
-            Kind::Wall => path.wall_meeting(near, Allowance { left, more: if round == 0 { 0.0 } else { left } }),
+            Kind::Wall => path.wall_meeting(near, Allowance { left, more: self.sunk[key.1] }),
         };
         let Some(meeting) = found else { return };
         let closing = -meeting.normal.dot(path.velocity);
         let meets = closing * terms.h >= meeting.way;
-        // What is reached only because something was struck in this frame collides at the speed it has by then.
+        // What is reached only because something was struck in this frame collides at the speed it has by then; not what
+        // it is pulled into by what accelerates it, before all that holds it is known.
         let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
-        let approach = if round == 0 { before } else { before.max(closing) };
+        let pulled = terms.pulled(model, key) + model.law.rest_speed;
+        let approach = if round == 0 || closing <= pulled { before } else { before.max(closing) };
         let struck = meets && carried == 0.0 && approach > model.law.rest_speed;
         self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
     }
@@ -144,33 +147,30 @@ impl Moreau {
     /// So walls that share a point (seams, doubled walls) strike once. What strikes takes its share of the tangential
     /// velocity.
     fn keep_first_strikes(&mut self, model: &Model, known: usize) {
-        let mut first = known;
-        let mut kept = known;
-        while first < self.rows.len() {
-            let (kind, a, _) = self.rows[first].key;
-            let same = |row: &&Row| kind == Kind::Wall && row.key.0 == kind && row.key.1 == a;
-            let end = first + self.rows[first..].iter().take_while(same).count().max(1);
-            let earliest = (first..end).reduce(|best, k| if self.comes_before(k, best) { k } else { best });
-            for k in first..end {
-                let row = self.rows[k];
-                if kind == Kind::Pair || row.holds() || earliest == Some(k) {
-                    if row.class == Class::Collide && kind == Kind::Wall {
-                        let (free, n) = (&mut self.free[a], row.normal);
-                        *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
-                    }
-                    self.rows[kept] = row;
-                    kept += 1;
-                }
-            }
-            first = end;
+        let mut keep = Vec::with_capacity(self.rows.len() - known);
+        for group in
+            self.rows[known..].chunk_by(|a, b| a.key.0 == Kind::Wall && b.key.0 == Kind::Wall && a.key.1 == b.key.1)
+        {
+            let earliest =
+                group.iter().reduce(|best, row| if row.comes_before(best) { row } else { best }).map(|row| row.key);
+            let kept = |row: &Row| {
+                let stood_for = || group.iter().any(|other| other.holds() && other.stands_for(row));
+                row.key.0 == Kind::Pair || ((row.holds() || earliest == Some(row.key)) && !stood_for())
+            };
+            keep.extend(group.iter().map(kept));
         }
-        self.rows.truncate(kept);
-    }
-
-    /// Whether row `k` of a sphere comes before row `best`: what is met earlier, of these what holds.
-    fn comes_before(&self, k: usize, best: usize) -> bool {
-        let (row, best) = (&self.rows[k], &self.rows[best]);
-        row.time < best.time || (row.time == best.time && row.holds() && !best.holds())
+        let mut keep = keep.into_iter();
+        let mut index = 0;
+        self.rows.retain(|_| {
+            index += 1;
+            index <= known || keep.next() == Some(true)
+        });
+        for row in &self.rows[known..] {
+            if row.class == Class::Collide && row.key.0 == Kind::Wall {
+                let (free, n) = (&mut self.free[row.key.1], row.normal);
+                *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+            }
+        }
     }
 
     /// All candidates have been looked at: new rows are solved, with the others; without any the frame is complete.
@@ -203,8 +203,21 @@ impl Moreau {
         if farther {
             self.search.restart();
         }
+        self.note_sunk();
         let known = self.rows.len();
         self.stage = if farther { Stage::Search { round } } else { Stage::Meet { round, from: 0, known } };
+    }
+
+    /// How far the solver leaves each sphere short of the planes of the walls that hold it.
+    fn note_sunk(&mut self) {
+        self.sunk.fill(0.0);
+        for row in self.rows.iter().take_while(|row| row.key.0 == Kind::Wall) {
+            let short = -(row.normal.dot(self.solution[row.key.1]) + row.offset);
+            if row.impulse > 0.0 && short <= row.slack {
+                let sunk = &mut self.sunk[row.key.1];
+                *sunk = sunk.max(short * self.settings.dt);
+            }
+        }
     }
 
     /// Closes the frame: v⁺ = u, x⁺ = x + h u.

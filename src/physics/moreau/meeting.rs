@@ -27,6 +27,15 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Steps after which a path that grazes counts as meeting.
 const MOST_STEPS: usize = 40;
 
+/// Closing speed over the speed below which a path may only graze a wall.
+const GRAZING: f64 = 1e-2;
+
+/// Thirds cut off a path while its deepest point is looked for: (2/3)^64 of a frame is 5e-12 of it.
+const GRAZING_STEPS: usize = 64;
+
+/// Square of the difference of two normals up to which walls count as touched at one point.
+const ONE_POINT: f64 = 1e-10;
+
 /// Gap over the size of the bodies from which they count as touching.
 pub(super) const TOUCHING: f64 = 1e-12;
 
@@ -39,6 +48,8 @@ pub(super) struct Meeting {
     pub(super) way: f64,
     /// When they touch on this path, s after the start; infinite if they are near and do not.
     pub(super) time: f64,
+    /// Whether it is a wall's face that is met.
+    pub(super) face: bool,
 }
 
 /// A plane that touches a wall grown by the sphere's radius.
@@ -123,7 +134,7 @@ impl<'a> Path<'a> {
     pub(super) fn meeting(&self, near: f64) -> Option<Meeting> {
         let (normal, gap) = self.touch(0.0);
         if gap <= near {
-            return Some(Meeting { normal, way: gap, time: 0.0 });
+            return Some(Meeting { normal, way: gap, time: 0.0, face: false });
         }
         self.first_touch(normal, gap)
     }
@@ -145,7 +156,7 @@ impl<'a> Path<'a> {
             t = ahead;
             (normal, gap) = self.touch(t);
         }
-        Some(Meeting { normal, way: gap - t * normal.dot(self.velocity), time: t })
+        Some(Meeting { normal, way: gap - t * normal.dot(self.velocity), time: t, face: false })
     }
 
     /// The same of a sphere and a wall; none if a plane has all of the wall behind it and all of the path before it. Over
@@ -165,19 +176,43 @@ impl<'a> Path<'a> {
             normal: start.normal,
             way: start.gap,
             time: f64::INFINITY,
+            face: true,
         });
         if clear(&first) {
             return over;
         }
-        let last = Plane::at(&contact_time::touch(face, to, r), r);
+        let end = contact_time::touch(face, to, r);
+        let last = Plane::at(&end, r);
         if clear(&last) {
             return over;
         }
-        if start.gap > left {
-            return self.first_touch(start.normal, start.gap).or(over);
+        let meeting = if start.gap > rounding {
+            self.first_touch(start.normal, start.gap)
+        } else {
+            let (plane, part) = if last.height(from) >= -left { (last, end.part) } else { (first, start.part) };
+            let (normal, way) = (plane.normal, plane.height(from));
+            Some(Meeting { normal, way, time: 0.0, face: part == Part::Face })
+        };
+        let deepest = start.gap.min(0.0) - rounding - allowance.more;
+        meeting.filter(|meeting| !self.grazes(meeting, deepest)).or(over)
+    }
+
+    /// Whether a path that turns away from what it meets goes no deeper than to a gap of `deepest`, m.
+    fn grazes(&self, meeting: &Meeting, deepest: f64) -> bool {
+        if -meeting.normal.dot(self.velocity) > GRAZING * self.velocity.length() {
+            return false;
         }
-        let plane = if last.height(from) >= -left { last } else { first };
-        Some(Meeting { normal: plane.normal, way: plane.height(from), time: 0.0 })
+        // The gap is convex: a third of the time is cut off at the higher end.
+        let (mut from, mut to) = (0.0, self.h);
+        for _ in 0..GRAZING_STEPS {
+            let (one, two) = (from + (to - from) / 3.0, to - (to - from) / 3.0);
+            let (gap_one, gap_two) = (self.touch(one).1, self.touch(two).1);
+            if gap_one.min(gap_two) < deepest {
+                return false;
+            }
+            (from, to) = if gap_one < gap_two { (from, two) } else { (one, to) };
+        }
+        self.touch(to).1 >= deepest && self.touch(from).1 >= deepest
     }
 }
 
@@ -199,6 +234,8 @@ pub(super) struct Row {
     pub(super) impulse: f64,
     /// When they touch on the path that they were found on, s after the frame's start; infinite if they do not.
     pub(super) time: f64,
+    /// Whether it is a wall's face that is met.
+    pub(super) face: bool,
 }
 
 /// What rows are made from, beside their meeting: the same for all rows of a frame.
@@ -230,6 +267,11 @@ impl Terms {
         self.tolerance * (model.law.rest_speed + pull(model, key) * self.h).min(size / self.h) * self.h
     }
 
+    /// What accelerates the bodies of `key` changes in their speed in a frame, m/s.
+    pub(super) fn pulled(&self, model: &Model, key: Key) -> f64 {
+        pull(model, key) * self.h
+    }
+
     /// Gap, m, within which bodies are rows from the start: others may push them together.
     pub(super) fn near(&self, model: &Model, key: Key) -> f64 {
         self.h * (pull(model, key) * self.h + model.law.rest_speed)
@@ -248,6 +290,18 @@ pub(super) struct Speeds {
 }
 
 impl Row {
+    /// Whether it is the one to keep of two rows of one sphere that touches two walls at one point: of faces and edges
+    /// the face, of alike ones the first.
+    pub(super) fn stands_for(&self, other: &Row) -> bool {
+        let one_point = (self.normal - other.normal).length_squared() <= ONE_POINT;
+        one_point && if self.face == other.face { self.key < other.key } else { self.face }
+    }
+
+    /// Whether it comes before `best`: what is met earlier, of these what holds.
+    pub(super) fn comes_before(&self, best: &Row) -> bool {
+        self.time < best.time || (self.time == best.time && self.holds() && !best.holds())
+    }
+
     /// Whether it only keeps bodies apart that touch, or are near each other.
     pub(super) fn holds(&self) -> bool {
         self.class == Class::Rest && (self.time == 0.0 || self.time == f64::INFINITY)
@@ -275,6 +329,7 @@ impl Row {
             slack: share.min(terms.tolerance * path.size() / terms.h).max(rounding),
             impulse: carried,
             time: meeting.time,
+            face: meeting.face,
         }
     }
 }

@@ -71,6 +71,8 @@ pub(super) struct Moreau {
     search: Search,
     /// Rows of the frame in progress, sorted by key.
     rows: Vec<Row>,
+    /// How deep the frame's rows leave each sphere in the walls that hold it, m.
+    sunk: Vec<f64>,
     solver: Solver,
     stage: Stage,
     /// Length of the last frame, s.
@@ -88,6 +90,7 @@ impl Engine for Moreau {
             carried: Vec::new(),
             search: Search::new(model),
             rows: Vec::new(),
+            sunk: vec![0.0; model.len()],
             solver: Solver::new(model),
             stage: Stage::Between,
             step: 0.0,
