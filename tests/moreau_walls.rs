@@ -173,8 +173,8 @@ fn hunted(seed: u64) -> Scene {
         let radius = if middle { r } else { random.between(0.1, 0.5) };
         let x = if middle { dvec3(0.0, random.between(-2.0, 2.0), 0.0) } else { random.vector() * (3.0 - radius) };
         let gap = |wall: &Wall| wall.shape.distance(x) - radius;
-        let free = walls.iter().all(|wall| gap(wall) >= -1e-13)
-            && spheres.iter().all(|s| s.x.distance(x) > s.radius + radius);
+        let free =
+            walls.iter().all(|wall| gap(wall) >= -1e-13) && spheres.iter().all(|s| s.x.distance(x) > s.radius + radius);
         if free && spheres.len() < count {
             let mass = random.pick(&[1.0, 1.0, 0.1, 10.0, 1e4]);
             spheres.push(Sphere { mass, ..sphere(x, random.vector() * speed, radius) });

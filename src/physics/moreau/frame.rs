@@ -55,6 +55,10 @@ impl Moreau {
             Stage::Search { round } => {
                 let (done, work) = self.search.go_on(model, &self.end.x);
                 log.tallies.evaluations += work;
+                if self.search.overflows() {
+                    self.stage = Stage::Between;
+                    return Err(self.crowded(model));
+                }
                 if done {
                     self.stage = Stage::Meet { round, from: 0, known: self.rows.len() };
                 }
@@ -224,6 +228,9 @@ impl Moreau {
     fn close(&mut self, model: &Model, log: &mut Log, converged: bool) -> Result<(), Stall> {
         self.stage = Stage::Between;
         let h = self.settings.dt;
+        if !converged {
+            self.hold_back(model);
+        }
         if let Some(stall) = self.runaway(&self.solution) {
             return Err(stall);
         }
@@ -240,6 +247,19 @@ impl Moreau {
         log.tallies.unconverged += u64::from(!converged);
         self.tell(model, log);
         Ok(())
+    }
+
+    /// Stops spheres that would pass into walls deeper than the tolerance allows, for this frame.
+    fn hold_back(&mut self, model: &Model) {
+        let terms = Terms::of(model, &self.settings);
+        for &key in self.search.found.iter().take_while(|key| key.0 == Kind::Wall) {
+            let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+            let left = terms.still(model, key);
+            let entered = path.wall_meeting(f64::NEG_INFINITY, Allowance { left, more: left });
+            if entered.is_some_and(|meeting| meeting.time <= terms.h) {
+                self.solution[key.1] = DVec3::ZERO;
+            }
+        }
     }
 
     /// Contacts and events of the frame that has just ended: what collided, what rests, what does not rest any more.
