@@ -5,7 +5,7 @@ mod random;
 mod support;
 
 use carom::geometry::Parallelogram;
-use carom::physics::{Class, Method, Progress, Scene, Settings, Simulation, Until};
+use carom::physics::{Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 use random::Random;
