@@ -64,6 +64,12 @@ fn methods_describes_every_method_and_one_alone() {
             assert!(one.lines().any(|line| line.trim_start().starts_with(word)), "{word:?} is not in {one}");
         }
     }
+    let paper = carom(&["methods", "paper"]).succeeds().out;
+    let differs: Vec<_> = paper.lines().filter(|line| line.trim_start().starts_with("differs")).collect();
+    for word in ["becomes 0", "closest point", "really lasted", "frame's start", "impulses that wait", "create energy"]
+    {
+        assert!(differs.iter().any(|line| line.contains(word)), "{word:?} is not in {differs:?}");
+    }
     let ran = carom(&["methods", "magic"]).fails_with(2);
     assert!(ran.err.contains("magic") && ran.err.contains("paper"), "{}", ran.err);
 }

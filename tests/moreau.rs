@@ -5,7 +5,7 @@ mod support;
 use carom::physics::{Class, Contact, Kind, Method, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, gas, room, run_to, scene, sphere, wall};
+use support::{ELASTIC, G, PAPER_LAW, gas, lattice, room, run_to, scene, sphere, wall};
 
 /// Impacts lose half of the approach speed.
 const HALF: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, ..PAPER_LAW };
@@ -316,4 +316,25 @@ fn a_frame_is_a_whole_dt_and_is_read_on_the_straight_line_between_its_ends() {
             assert!((middle.x[i] - 0.5 * (before.x[i] + after.x[i])).length() < 1e-14);
         }
     }
+}
+
+#[test]
+fn a_frame_in_which_everything_may_meet_is_refused_by_count_and_names_dt() {
+    // 9261 spheres that fall 490 m in a frame: 4e7 pairs, a gigabyte of them.
+    let crowd = scene(G, HALF, vec![floor()], lattice(21, 2.5, DVec3::ZERO, 0.5));
+    let stalled = |work: u64| {
+        let mut run = start(&crowd, 10.0, 1e-3);
+        let stall = run_to(&mut run, 10.0, work).expect("a stall");
+        (stall, run.tallies().evaluations)
+    };
+    let (stall, evaluations) = stalled(u64::MAX);
+    assert_eq!((stall.kind, stall.time), ("step-too-large", 0.0));
+    for word in ["10 s", "smaller dt", "1317928 pairs"] {
+        assert!(stall.reason.contains(word), "{word:?} is not in {:?}", stall.reason);
+    }
+    assert_eq!(stalled(1000), (stall, evaluations));
+    // Two million distances to find one and a third that are near: it does not look at all of the 4e7.
+    assert!(evaluations < 10_000_000, "{evaluations}");
+    let mut run = start(&crowd, 0.01, 1e-3);
+    assert_eq!(run_to(&mut run, 0.02, u64::MAX), None);
 }

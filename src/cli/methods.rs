@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::arguments::Methods;
 use super::failure::Failure;
 use super::output::Output;
-use crate::physics::{Description, Method, describe};
+use crate::physics::{Description, Method, describe, deviations};
 
 pub(super) fn methods(arguments: &Methods) -> Result<(), Failure> {
     let mut out = Output::stdout();
@@ -30,5 +30,6 @@ fn whole(method: &Description, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "{}: {}", method.method.name(), method.summary)?;
     let lines =
         [("order", method.order), ("knobs", method.knobs), ("not for", method.avoid), ("source", method.source)];
-    lines.iter().try_for_each(|(word, text)| writeln!(out, "  {word:8} {text}"))
+    lines.iter().try_for_each(|(word, text)| writeln!(out, "  {word:8} {text}"))?;
+    deviations(method.method).iter().try_for_each(|text| writeln!(out, "  {:8} {text}", "differs"))
 }

@@ -82,6 +82,14 @@ pub fn describe(method: Method) -> &'static Description {
     }
 }
 
+/// Where a method is not its source to the letter, and what of the letter to know of: a sentence each.
+pub fn deviations(method: Method) -> &'static [&'static str] {
+    match method {
+        Method::Paper => paper::DEVIATIONS,
+        Method::Swept | Method::Exact | Method::Moreau => &[],
+    }
+}
+
 /// One method at work. The model and the log are lent for the length of a call, the state between frames is its own.
 trait Engine {
     /// Takes over at `state`, which is the model's initial one (t = 0) or what another method left.

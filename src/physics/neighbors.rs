@@ -124,7 +124,18 @@ impl Cells {
     /// Calls `near` with every pair (lower index first) whose centres are no farther apart than its radii reach, of
     /// which one lies in one of these cells and the other in the same or a later neighbour: over all cells, every pair
     /// once. The number of distances computed.
-    pub(crate) fn pairs(&self, cells: Range<usize>, mut near: impl FnMut(usize, usize)) -> u64 {
+    pub(crate) fn pairs(&self, cells: Range<usize>, near: impl FnMut(usize, usize)) -> u64 {
+        self.pairs_until(cells, near, || false)
+    }
+
+    /// The same; it may stop at any sphere from which on `enough` says so.
+    #[inline]
+    pub(crate) fn pairs_until(
+        &self,
+        cells: Range<usize>,
+        mut near: impl FnMut(usize, usize),
+        enough: impl Fn() -> bool,
+    ) -> u64 {
         let mut distances = 0;
         for c in cells {
             let own = self.starts[c] as usize..self.starts[c + 1] as usize;
@@ -135,6 +146,9 @@ impl Cells {
             let [r1, r2, r3, r4] = rows.map(|step| self.around((c + step) & self.mask));
             let next = self.span((c + 1) & self.mask);
             for k in own.clone() {
+                if enough() {
+                    return distances;
+                }
                 for others in [k + 1..own.end, next.clone(), r1.0.clone(), r2.0.clone(), r3.0.clone(), r4.0.clone()] {
                     distances += self.scan(k, others, &mut near);
                 }

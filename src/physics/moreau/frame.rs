@@ -9,7 +9,7 @@ use super::super::log::Log;
 use super::super::motion::{Flight, with_flight};
 use super::super::{Class, Contact, Kind, Model, Stall, motion, overlap};
 use super::Moreau;
-use super::meeting::{Path, Row, Speeds, TOUCHING, Terms};
+use super::meeting::{Allowance, Path, Row, Speeds, TOUCHING, Terms};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -55,6 +55,10 @@ impl Moreau {
             Stage::Search { round } => {
                 let (done, work) = self.search.go_on(model, &self.end.x);
                 log.tallies.evaluations += work;
+                if self.search.overflows() {
+                    self.stage = Stage::Between;
+                    return Err(self.crowded(model));
+                }
                 if done {
                     self.stage = Stage::Meet { round, from: 0, known: self.rows.len() };
                 }
@@ -89,6 +93,7 @@ impl Moreau {
         with_flight!(model, flight => self.fall(flight, h));
         self.solution.clone_from(&self.free);
         self.rows.clear();
+        self.sunk.fill(0.0);
         self.solver.forget();
         let (free, v) = (&self.free, &self.end.v);
         let speed = |i: usize| free[i].length_squared().max(v[i].length_squared()).sqrt();
@@ -124,19 +129,52 @@ impl Moreau {
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
         let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
         let near = if round == 0 { terms.near(model, key) } else { 0.0 };
-        let Some(meeting) = path.meeting(near) else { return };
+        let left = terms.still(model, key);
+        let found = match key.0 {
+            Kind::Pair => path.meeting(near),
+            Kind::Wall => path.wall_meeting(near, Allowance { left, more: self.sunk[key.1] }),
+        };
+        let Some(meeting) = found else { return };
         let closing = -meeting.normal.dot(path.velocity);
         let meets = closing * terms.h >= meeting.way;
-        // What is reached only because something was struck in this frame collides at the speed it has by then.
+        // What is reached only because something was struck in this frame collides at the speed it has by then; not what
+        // it is pulled into by what accelerates it, before all that holds it is known.
         let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
-        let approach = if round == 0 { before } else { before.max(closing) };
+        let pulled = terms.pulled(model, key) + model.law.rest_speed;
+        let approach = if round == 0 || closing <= pulled { before } else { before.max(closing) };
         let struck = meets && carried == 0.0 && approach > model.law.rest_speed;
-        let row = Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms);
-        if struck && key.0 == Kind::Wall {
-            let (free, n) = (&mut self.free[key.1], row.normal);
-            *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+        self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
+    }
+
+    /// Of the walls that a sphere has been found to meet in this round, keeps those that hold it already and the first
+    /// that it strikes, unless one holds it: whether it strikes the others too is seen on the path that these leave it.
+    /// So walls that share a point (seams, doubled walls) strike once. What strikes takes its share of the tangential
+    /// velocity.
+    fn keep_first_strikes(&mut self, model: &Model, known: usize) {
+        let mut keep = Vec::with_capacity(self.rows.len() - known);
+        for group in
+            self.rows[known..].chunk_by(|a, b| a.key.0 == Kind::Wall && b.key.0 == Kind::Wall && a.key.1 == b.key.1)
+        {
+            let earliest =
+                group.iter().reduce(|best, row| if row.comes_before(best) { row } else { best }).map(|row| row.key);
+            let kept = |row: &Row| {
+                let stood_for = || group.iter().any(|other| other.holds() && other.stands_for(row));
+                row.key.0 == Kind::Pair || ((row.holds() || earliest == Some(row.key)) && !stood_for())
+            };
+            keep.extend(group.iter().map(kept));
         }
-        self.rows.push(row);
+        let mut keep = keep.into_iter();
+        let mut index = 0;
+        self.rows.retain(|_| {
+            index += 1;
+            index <= known || keep.next() == Some(true)
+        });
+        for row in &self.rows[known..] {
+            if row.class == Class::Collide && row.key.0 == Kind::Wall {
+                let (free, n) = (&mut self.free[row.key.1], row.normal);
+                *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+            }
+        }
     }
 
     /// All candidates have been looked at: new rows are solved, with the others; without any the frame is complete.
@@ -145,6 +183,7 @@ impl Moreau {
         if complete || round >= MOST_ROUNDS {
             return self.close(model, log, complete && self.solver.converged);
         }
+        self.keep_first_strikes(model, known);
         self.rows.sort_unstable_by_key(|row| row.key);
         self.solver.begin(model, &self.free, &self.rows);
         self.stage = Stage::Solve { round };
@@ -168,14 +207,30 @@ impl Moreau {
         if farther {
             self.search.restart();
         }
+        self.note_sunk();
         let known = self.rows.len();
         self.stage = if farther { Stage::Search { round } } else { Stage::Meet { round, from: 0, known } };
+    }
+
+    /// How far the solver leaves each sphere short of the planes of the walls that hold it.
+    fn note_sunk(&mut self) {
+        self.sunk.fill(0.0);
+        for row in self.rows.iter().take_while(|row| row.key.0 == Kind::Wall) {
+            let short = -(row.normal.dot(self.solution[row.key.1]) + row.offset);
+            if row.impulse > 0.0 && short <= row.slack {
+                let sunk = &mut self.sunk[row.key.1];
+                *sunk = sunk.max(short * self.settings.dt);
+            }
+        }
     }
 
     /// Closes the frame: v⁺ = u, x⁺ = x + h u.
     fn close(&mut self, model: &Model, log: &mut Log, converged: bool) -> Result<(), Stall> {
         self.stage = Stage::Between;
         let h = self.settings.dt;
+        if !converged {
+            self.hold_back(model);
+        }
         if let Some(stall) = self.runaway(&self.solution) {
             return Err(stall);
         }
@@ -192,6 +247,19 @@ impl Moreau {
         log.tallies.unconverged += u64::from(!converged);
         self.tell(model, log);
         Ok(())
+    }
+
+    /// Stops spheres that would pass into walls deeper than the tolerance allows, for this frame.
+    fn hold_back(&mut self, model: &Model) {
+        let terms = Terms::of(model, &self.settings);
+        for &key in self.search.found.iter().take_while(|key| key.0 == Kind::Wall) {
+            let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+            let left = terms.still(model, key);
+            let entered = path.wall_meeting(f64::NEG_INFINITY, Allowance { left, more: left });
+            if entered.is_some_and(|meeting| meeting.time <= terms.h) {
+                self.solution[key.1] = DVec3::ZERO;
+            }
+        }
     }
 
     /// Contacts and events of the frame that has just ended: what collided, what rests, what does not rest any more.

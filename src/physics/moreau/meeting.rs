@@ -3,12 +3,19 @@
 //! The gap of a sphere to a convex body (a parallelogram, another sphere) is a convex function of time on a straight
 //! path, so that Newton's method from the start of the frame comes up to its first root from below and never passes it
 //! (for a face in one step). The plane through the touching point, perpendicular to the normal there, has the other
-//! body behind it: whoever stays on its side for the rest of the frame touches nothing, whatever else happens.
+//! body behind it: what stays on its side for the rest of the frame does not touch it, whatever else happens.
+//!
+//! Every plane with the wall on one side and the path's start on the other is safe in this way, and a sphere that slides
+//! on needs the one that does not get in its way: over a tile that lies level with the last one it is the tile's face,
+//! not the edge that it comes to first. So a wall whose plane at the end of the path has all of the path before it is no
+//! row at all; a wall that is touched already becomes a row with that plane if the start lies before it.
 
 use glam::DVec3;
 
 use super::super::contact::Key;
+use super::super::contact_time::Part;
 use super::super::model::Pull;
+use super::super::overlap::touching;
 use super::super::{Class, Kind, Model, Settings, contact_time};
 
 /// Larger tolerances count as this one: a solver that may miss everything by half solves nothing.
@@ -20,6 +27,15 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Steps after which a path that grazes counts as meeting.
 const MOST_STEPS: usize = 40;
 
+/// Closing speed over the speed below which a path may only graze a wall.
+const GRAZING: f64 = 1e-2;
+
+/// Thirds cut off a path while its deepest point is looked for: (2/3)^64 of a frame is 5e-12 of it.
+const GRAZING_STEPS: usize = 64;
+
+/// Square of the difference of two normals up to which walls count as touched at one point.
+const ONE_POINT: f64 = 1e-10;
+
 /// Gap over the size of the bodies from which they count as touching.
 pub(super) const TOUCHING: f64 = 1e-12;
 
@@ -30,6 +46,40 @@ pub(super) struct Meeting {
     pub(super) normal: DVec3,
     /// Way along the normal, from the start of the frame, until they touch, m; negative: overlap.
     pub(super) way: f64,
+    /// When they touch on this path, s after the start; infinite if they are near and do not.
+    pub(super) time: f64,
+    /// Whether it is a wall's face that is met.
+    pub(super) face: bool,
+}
+
+/// A plane that touches a wall grown by the sphere's radius.
+#[derive(Debug, Clone, Copy)]
+struct Plane {
+    /// Unit, away from the wall.
+    normal: DVec3,
+    /// n · x of its points, m.
+    level: f64,
+}
+
+impl Plane {
+    /// The plane at the point closest to `x` (m) of a wall, for spheres of radius `r` (m).
+    fn at(touch: &contact_time::Touch, r: f64) -> Plane {
+        Plane { normal: touch.normal, level: touch.normal.dot(touch.point) + r }
+    }
+
+    /// How far before the plane `x` (m) lies, m.
+    fn height(&self, x: DVec3) -> f64 {
+        self.normal.dot(x) - self.level
+    }
+}
+
+/// What may be missed where spheres touch walls, m.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Allowance {
+    /// How deep a sphere may already be in at the start: what the solver may have left.
+    pub(super) left: f64,
+    /// How much deeper it may get.
+    pub(super) more: f64,
 }
 
 /// The relative motion of two bodies from the start of a frame.
@@ -82,10 +132,15 @@ impl<'a> Path<'a> {
     /// Where the bodies first touch within the frame; none if they do not. Bodies that are closer than `near` (m) at
     /// the start count as meeting there, whatever they do.
     pub(super) fn meeting(&self, near: f64) -> Option<Meeting> {
-        let (mut normal, mut gap) = self.touch(0.0);
+        let (normal, gap) = self.touch(0.0);
         if gap <= near {
-            return Some(Meeting { normal, way: gap });
+            return Some(Meeting { normal, way: gap, time: 0.0, face: false });
         }
+        self.first_touch(normal, gap)
+    }
+
+    /// Where bodies first touch within the frame that are apart by `gap` (m) along `normal` at its start.
+    fn first_touch(&self, mut normal: DVec3, mut gap: f64) -> Option<Meeting> {
         let touching = TOUCHING * self.size();
         let mut t = 0.0;
         for _ in 0..MOST_STEPS {
@@ -101,7 +156,63 @@ impl<'a> Path<'a> {
             t = ahead;
             (normal, gap) = self.touch(t);
         }
-        Some(Meeting { normal, way: gap - t * normal.dot(self.velocity) })
+        Some(Meeting { normal, way: gap - t * normal.dot(self.velocity), time: t, face: false })
+    }
+
+    /// The same of a sphere and a wall; none if a plane has all of the wall behind it and all of the path before it. Over
+    /// faces, what is closer than `near` (m) at the start counts as near.
+    pub(super) fn wall_meeting(&self, near: f64, allowance: Allowance) -> Option<Meeting> {
+        let (face, r) = (&self.model.faces[self.key.2], self.size());
+        let (from, to) = (self.from, self.from + self.velocity * self.h);
+        let rounding = touching(r, from.abs().max_element().max(to.abs().max_element()));
+        let left = allowance.left.max(rounding);
+        let start = contact_time::touch(face, from, r);
+        let first = Plane::at(&start, r);
+        let clear = |plane: &Plane| {
+            let height = plane.height(from);
+            height >= -left && plane.height(to) >= height.min(0.0) - rounding - allowance.more
+        };
+        let over = (start.part == Part::Face && start.gap <= near).then_some(Meeting {
+            normal: start.normal,
+            way: start.gap,
+            time: f64::INFINITY,
+            face: true,
+        });
+        if clear(&first) {
+            return over;
+        }
+        let end = contact_time::touch(face, to, r);
+        let last = Plane::at(&end, r);
+        if clear(&last) {
+            return over;
+        }
+        let meeting = if start.gap > rounding {
+            self.first_touch(start.normal, start.gap)
+        } else {
+            let (plane, part) = if last.height(from) >= -left { (last, end.part) } else { (first, start.part) };
+            let (normal, way) = (plane.normal, plane.height(from));
+            Some(Meeting { normal, way, time: 0.0, face: part == Part::Face })
+        };
+        let deepest = start.gap.min(0.0) - rounding - allowance.more;
+        meeting.filter(|meeting| !self.grazes(meeting, deepest)).or(over)
+    }
+
+    /// Whether a path that turns away from what it meets goes no deeper than to a gap of `deepest`, m.
+    fn grazes(&self, meeting: &Meeting, deepest: f64) -> bool {
+        if -meeting.normal.dot(self.velocity) > GRAZING * self.velocity.length() {
+            return false;
+        }
+        // The gap is convex: a third of the time is cut off at the higher end.
+        let (mut from, mut to) = (0.0, self.h);
+        for _ in 0..GRAZING_STEPS {
+            let (one, two) = (from + (to - from) / 3.0, to - (to - from) / 3.0);
+            let (gap_one, gap_two) = (self.touch(one).1, self.touch(two).1);
+            if gap_one.min(gap_two) < deepest {
+                return false;
+            }
+            (from, to) = if gap_one < gap_two { (from, two) } else { (one, to) };
+        }
+        self.touch(to).1 >= deepest && self.touch(from).1 >= deepest
     }
 }
 
@@ -121,6 +232,10 @@ pub(super) struct Row {
     pub(super) slack: f64,
     /// Λ, N s.
     pub(super) impulse: f64,
+    /// When they touch on the path that they were found on, s after the frame's start; infinite if they do not.
+    pub(super) time: f64,
+    /// Whether it is a wall's face that is met.
+    pub(super) face: bool,
 }
 
 /// What rows are made from, beside their meeting: the same for all rows of a frame.
@@ -146,6 +261,17 @@ impl Terms {
         Terms { h, tolerance, push: model.law.rest_speed.max(gravity * h) }
     }
 
+    /// Gap or overlap, m, that the solver may leave and that is not corrected.
+    pub(super) fn still(&self, model: &Model, key: Key) -> f64 {
+        let size = model.radii[key.1] + if key.0 == Kind::Pair { model.radii[key.2] } else { 0.0 };
+        self.tolerance * (model.law.rest_speed + pull(model, key) * self.h).min(size / self.h) * self.h
+    }
+
+    /// What accelerates the bodies of `key` changes in their speed in a frame, m/s.
+    pub(super) fn pulled(&self, model: &Model, key: Key) -> f64 {
+        pull(model, key) * self.h
+    }
+
     /// Gap, m, within which bodies are rows from the start: others may push them together.
     pub(super) fn near(&self, model: &Model, key: Key) -> f64 {
         self.h * (pull(model, key) * self.h + model.law.rest_speed)
@@ -164,6 +290,23 @@ pub(super) struct Speeds {
 }
 
 impl Row {
+    /// Whether it is the one to keep of two rows of one sphere that touches two walls at one point: of faces and edges
+    /// the face, of alike ones the first.
+    pub(super) fn stands_for(&self, other: &Row) -> bool {
+        let one_point = (self.normal - other.normal).length_squared() <= ONE_POINT;
+        one_point && if self.face == other.face { self.key < other.key } else { self.face }
+    }
+
+    /// Whether it comes before `best`: what is met earlier, of these what holds.
+    pub(super) fn comes_before(&self, best: &Row) -> bool {
+        self.time < best.time || (self.time == best.time && self.holds() && !best.holds())
+    }
+
+    /// Whether it only keeps bodies apart that touch, or are near each other.
+    pub(super) fn holds(&self) -> bool {
+        self.class == Class::Rest && (self.time == 0.0 || self.time == f64::INFINITY)
+    }
+
     /// The row of bodies that were held by `carried` (N s, 0 if by nothing) in the last frame.
     pub(super) fn new(path: &Path, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
         let law = &path.model.law;
@@ -171,7 +314,7 @@ impl Row {
         let gravity = pull(path.model, path.key) * terms.h;
         // What the solver may miss is not corrected: the problem of bodies at rest is then the same in every frame, and
         // the sweeps of all frames converge on one solution instead of chasing their own corrections.
-        let still = terms.tolerance * (law.rest_speed + gravity).min(path.size() / terms.h) * terms.h;
+        let still = terms.still(path.model, path.key);
         let reached = if meeting.way.abs() <= still { 0.0 } else { (meeting.way / terms.h).max(-terms.push) };
         let share = terms.tolerance * (law.rest_speed + gravity + speeds.closing.abs());
         let rounding = ROUNDING * (path.velocity.length() + gravity + reached.abs());
@@ -185,6 +328,8 @@ impl Row {
             class: if speeds.struck { Class::Collide } else { Class::Rest },
             slack: share.min(terms.tolerance * path.size() / terms.h).max(rounding),
             impulse: carried,
+            time: meeting.time,
+            face: meeting.face,
         }
     }
 }

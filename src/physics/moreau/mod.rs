@@ -11,7 +11,11 @@
 //! energy to the spheres that it concerns.
 //!
 //! Rows are found from the free velocities and looked for again with the solution: what a struck sphere reaches in the
-//! same frame becomes a row too, until nothing new is met. So nothing passes through anything at any speed.
+//! same frame becomes a row too, until nothing new is met. So nothing passes through anything at any speed. Of walls, a
+//! sphere strikes one at a time: the first on its way, then what it meets on the path that this leaves it. So tiles that
+//! lie level are one floor, and walls that share a point take tangential speed once. What a solver that has not converged
+//! would send through a wall stays where it is for that frame, which counts as unconverged. A frame in which more pairs
+//! of bodies may meet than memory is meant for is not begun: a stall that names dt.
 //!
 //! Sources: Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); Jean, The non-smooth contact
 //! dynamics method (1999); Acary, Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 10.1 and 12.4.
@@ -34,7 +38,7 @@ use super::{
 };
 use frame::Stage;
 use meeting::Row;
-use search::Search;
+use search::{Search, most_candidates};
 use solver::Solver;
 
 /// What `moreau` is.
@@ -71,6 +75,8 @@ pub(super) struct Moreau {
     search: Search,
     /// Rows of the frame in progress, sorted by key.
     rows: Vec<Row>,
+    /// How deep the frame's rows leave each sphere in the walls that hold it, m.
+    sunk: Vec<f64>,
     solver: Solver,
     stage: Stage,
     /// Length of the last frame, s.
@@ -88,6 +94,7 @@ impl Engine for Moreau {
             carried: Vec::new(),
             search: Search::new(model),
             rows: Vec::new(),
+            sunk: vec![0.0; model.len()],
             solver: Solver::new(model),
             stage: Stage::Between,
             step: 0.0,
@@ -222,6 +229,22 @@ impl Moreau {
             format!("a frame of {dt} s from then on sends it there; begin with smaller speeds or take a smaller dt");
         let ends = self.end.x.iter().zip(u).enumerate();
         ends.map(|(i, (&x, &u))| (i, [x + u * dt, u])).find_map(|(i, end)| runaway(i, self.end.t, end, &cause))
+    }
+
+    /// Why a frame in which too many bodies may meet is not begun.
+    fn crowded(&self, model: &Model) -> Stall {
+        let (time, dt) = (self.end.t, self.settings.dt);
+        let (radii, ways) = (0..model.len()).fold((0.0, 0.0), |(radii, ways), i| {
+            (radii + model.radii[i], ways + (self.search.reach(i) - model.radii[i]))
+        });
+        let most = most_candidates(model.len());
+        let reason = format!(
+            "At t = {time} s a step of {dt} s leads the spheres past each other: more than {most} pairs of bodies may meet \
+             in it, which would take too much memory; take a smaller dt, about {:.0e} s, in which a sphere moves as far as \
+             its radius.",
+            dt * radii / ways
+        );
+        Stall { time, kind: "step-too-large", reason }
     }
 
     fn standstill(&self) -> Stall {

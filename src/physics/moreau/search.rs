@@ -3,12 +3,13 @@
 //! Cells serve the many that move about as far as they are wide; the few that move farther are compared with everybody,
 //! so that one fast sphere does not make every cell as wide as its way.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::super::contact::Key;
-use super::super::model::PairSearch;
+use super::super::model::{Face, PairSearch};
 use super::super::neighbors::Cells;
 use super::super::{Kind, Model};
 
@@ -20,6 +21,15 @@ const SNUG: f64 = 1.25;
 
 /// By how much cells grow when too many reach beyond them.
 const GROWTH: f64 = 1.5;
+
+/// Leaves room for the rounding of (u, v).
+const BESIDE: f64 = 1.0 + 1e-6;
+
+/// Candidates that a frame may have beside those of each sphere: what memory small scenes may take, some 30 MB.
+const MOST_IN_ALL: usize = 1 << 20;
+
+/// Candidates that a frame may have for each sphere besides: one that moves as far as it is wide meets about ten.
+const MOST_PER_SPHERE: usize = 32;
 
 /// What the search does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,8 +123,16 @@ impl Search {
         }
     }
 
+    /// Whether more bodies may meet than a frame is made for. Then the search goes no further.
+    pub(super) fn overflows(&self) -> bool {
+        self.found.len() > most_candidates(self.reach.len())
+    }
+
     /// Goes on: whether all are found, and the work that took.
     pub(super) fn go_on(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
+        if self.overflows() {
+            return (true, 1);
+        }
         let work = match self.stage {
             Stage::Walls(from) => self.walls(model, x, from..x.len().min(from + CHUNK)),
             Stage::Cells(from) => self.pairs_in_cells(from),
@@ -127,13 +145,16 @@ impl Search {
     fn walls(&mut self, model: &Model, x: &[DVec3], range: Range<usize>) -> u64 {
         for i in range.clone() {
             for (w, face) in model.faces.iter().enumerate() {
-                if face.height(x[i]).abs() <= self.reach[i] {
+                if is_near(face, x[i], self.reach[i]) {
                     self.found.push((Kind::Wall, i, w));
                 }
             }
         }
         if let Some(cells) = &mut self.cells {
             cells.count(x, range.clone());
+        }
+        if self.overflows() {
+            return (range.len() * model.faces.len()) as u64;
         }
         self.stage = Stage::Walls(range.end);
         if range.end == x.len() {
@@ -152,8 +173,15 @@ impl Search {
     fn pairs_in_cells(&mut self, from: usize) -> u64 {
         let Some(cells) = &self.cells else { return 0 };
         let to = cells.len().min(from + CHUNK);
-        let found = &mut self.found;
-        let distances = cells.pairs(from..to, |a, b| found.push((Kind::Pair, a, b)));
+        let (found, most) = (&mut self.found, most_candidates(self.reach.len()));
+        let full = Cell::new(found.len() > most);
+        let near = |a: usize, b: usize| {
+            if !full.get() {
+                found.push((Kind::Pair, a, b));
+                full.set(found.len() > most);
+            }
+        };
+        let distances = cells.pairs_until(from..to, near, || full.get());
         self.stage = if to == cells.len() { Stage::Far(0) } else { Stage::Cells(to) };
         distances + (to - from) as u64 / 4
     }
@@ -175,5 +203,38 @@ impl Search {
         }
         self.stage = Stage::Far(from + 1);
         (x.len() - first) as u64
+    }
+}
+
+/// Most candidates of a frame of so many spheres.
+pub(super) fn most_candidates(spheres: usize) -> usize {
+    MOST_IN_ALL + MOST_PER_SPHERE * spheres
+}
+
+/// Whether a wall may be as near to `x` (m) as `reach` (m): it lies within that of the plane, and its foot within that of
+/// the outline.
+fn is_near(face: &Face, x: DVec3, reach: f64) -> bool {
+    let foot = x - face.shape.center;
+    let beside = |dual: DVec3| foot.dot(dual).abs() <= 0.5 + BESIDE * reach * dual.length();
+    foot.dot(face.normal).abs() <= reach && beside(face.dual1) && beside(face.dual2)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec3;
+
+    use super::*;
+    use crate::geometry::Parallelogram;
+
+    #[test]
+    fn no_wall_within_reach_is_left_out() {
+        let skewed = Parallelogram { center: DVec3::ONE, s1: dvec3(3.0, 0.0, 0.1), s2: dvec3(2.5, 0.3, 0.4) };
+        let face = Face::new(skewed);
+        for k in 0..4096 {
+            let at = |shift: u32| f64::from((k >> shift) & 15) - 7.5;
+            let x = DVec3::ONE + dvec3(at(0), at(4), at(8)) * 0.4;
+            let distance = skewed.distance(x);
+            assert!(is_near(&face, x, distance), "{x} at {distance} m");
+        }
     }
 }

@@ -71,9 +71,9 @@ struct Line {
 #[derive(Debug, Clone)]
 struct Gain {
     island: Island,
-    /// By body, m/s.
+    /// By body, m/s; empty if rebounds contradict each other.
     u: Vec<DVec3>,
-    /// By contact, N s.
+    /// By contact, N s; likewise.
     impulses: Vec<f64>,
     /// Σ m u² that it may have, J.
     allowed: f64,
@@ -135,6 +135,7 @@ impl Solver {
         self.lines.clear();
         self.lines.extend(rows.iter().map(|row| line(model, row)));
         self.gains.clear();
+        self.converged = true;
         for line in &self.lines {
             if line.impulse > 0.0 {
                 push(&mut self.bodies, line, line.impulse);
@@ -143,13 +144,30 @@ impl Solver {
         self.set_out(model, free);
     }
 
-    /// Begins to sweep; islands of unlike masses are solved at once.
+    /// Begins to sweep; islands of unlike masses are solved at once, and so are spheres with nothing but walls about them:
+    /// what sweeping leaves undone would make a sphere feel seams.
     fn set_out(&mut self, model: &Model, free: &[DVec3]) {
         self.resorted = 0;
         self.stage = Stage::Sweep(0);
-        if !self.alike {
-            self.solve_directly(model, free, MOST_DIRECT_ROWS, |ratio| ratio >= UNLIKE_MASSES);
+        if self.any_alone() {
+            self.solve_directly(model, free, MOST_DIRECT_ROWS, |island, _| island.bodies.len() == 1);
         }
+        if !self.alike {
+            self.solve_directly(model, free, MOST_DIRECT_ROWS, |_, ratio| ratio >= UNLIKE_MASSES);
+        }
+    }
+
+    /// Whether some sphere has several rows, all with walls.
+    fn any_alone(&self) -> bool {
+        let walls = self.lines.iter().take_while(|line| line.b == WALL).count();
+        let (walls, pairs) = self.lines.split_at(walls);
+        let mut several = walls.windows(2).filter(|two| two[0].a == two[1].a).map(|two| two[0].a).peekable();
+        if several.peek().is_none() {
+            return false;
+        }
+        let mut paired = vec![false; self.bodies.len()];
+        pairs.iter().for_each(|line| (paired[line.a as usize], paired[line.b as usize]) = (true, true));
+        several.any(|a| !paired[a as usize])
     }
 
     /// Goes on, with the velocities of the frame's start, m/s: whether it is done, and the work that took.
@@ -165,7 +183,7 @@ impl Solver {
             self.give_up(model, free, sweeps);
         }
         if self.stage == Stage::Done {
-            self.keep_energy(model, free, v, rows);
+            self.finish(model, free, v, rows);
         }
         (self.stage == Stage::Done, 2 * count as u64)
     }
@@ -175,11 +193,9 @@ impl Solver {
         let rows = if sweeps >= MOST_SWEEPS { MOST_DIRECT_ROWS } else { DIRECT_ROWS };
         if self.resorted < rows {
             self.resorted = rows;
-            self.solve_directly(model, free, rows, |_| true);
+            self.solve_directly(model, free, rows, |_, _| true);
         }
-        let solved = self.is_solved();
-        if solved || sweeps >= MOST_SWEEPS || self.lines.iter().all(|line| line.settled) {
-            self.converged &= solved;
+        if self.is_solved() || sweeps >= MOST_SWEEPS || self.lines.iter().all(|line| line.settled) {
             self.stage = Stage::Done;
         }
     }
@@ -201,13 +217,19 @@ impl Solver {
         calm
     }
 
-    /// Whether every row is complementary: |min(J u + c, Λ A_jj)| within its slack, or within the rounding of what
-    /// its bodies carry.
+    /// Whether every row is complementary.
     fn is_solved(&self) -> bool {
-        let residual = |line: &Line| opening(&self.bodies, line).min(line.impulse / line.weight).abs();
-        if self.lines.iter().all(|line| residual(line) <= line.slack) {
-            return true;
-        }
+        self.lines.iter().all(|line| self.residual(line) <= line.slack) || self.unsolved().is_none()
+    }
+
+    /// |min(J u + c, Λ A_jj)| of a row, m/s.
+    fn residual(&self, line: &Line) -> f64 {
+        opening(&self.bodies, line).min(line.impulse / line.weight).abs()
+    }
+
+    /// The rows, by index, that are not complementary within their slack or within the rounding of what their bodies
+    /// carry; none if all are.
+    fn unsolved(&self) -> Option<Vec<bool>> {
         // All that is pushed into and out of a body's velocity, m/s.
         let mut load = vec![0.0; self.bodies.len()];
         for line in &self.lines {
@@ -217,32 +239,55 @@ impl Solver {
             }
         }
         let carried = |line: &Line| load[line.a as usize] + other(line).map_or(0.0, |b| load[b]);
-        self.lines.iter().all(|line| residual(line) <= line.slack.max(ROUNDING * carried(line)))
+        let missed = |line: &Line| {
+            let residual = self.residual(line);
+            residual.is_nan() || residual > line.slack.max(ROUNDING * carried(line))
+        };
+        let missed: Vec<bool> = self.lines.iter().map(missed).collect();
+        missed.contains(&true).then_some(missed)
     }
 
-    /// Sets out without rebounds for islands that would gain energy; if that is done already, takes the means.
-    fn keep_energy(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) {
-        if !self.gains.is_empty() {
-            self.take_means(model);
-        } else if rows.iter().any(|row| row.offset < row.reached) {
-            self.gains = self.find_gains(model, free, v);
+    /// The rows are solved, or given up. Sets out without rebounds for islands that would gain energy, or whose rebounds
+    /// contradict each other (a sphere between two walls cannot leave both); if that is done already, takes the means.
+    fn finish(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) {
+        let unsolved = self.unsolved();
+        let rebounds = self.gains.is_empty() && rows.iter().any(|row| row.offset < row.reached);
+        if rebounds {
+            self.gains = self.find_gains(model, free, v, rows, unsolved.as_deref());
             if !self.gains.is_empty() {
                 self.drop_rebounds(free, rows);
                 self.set_out(model, free);
+                return;
             }
         }
+        self.converged = unsolved.is_none();
+        self.take_means(model);
     }
 
-    fn find_gains(&self, model: &Model, free: &[DVec3], v: &[DVec3]) -> Vec<Gain> {
+    fn find_gains(
+        &self,
+        model: &Model,
+        free: &[DVec3],
+        v: &[DVec3],
+        rows: &[Row],
+        unsolved: Option<&[bool]>,
+    ) -> Vec<Gain> {
         let mut gains = Vec::new();
         for island in islands(&self.links()) {
             let energy = |u: &dyn Fn(usize) -> DVec3| -> f64 {
                 island.bodies.iter().map(|&body| model.masses[body] * u(body).length_squared()).sum()
             };
             let allowed = energy(&|body| free[body]).max(energy(&|body| v[body]));
-            if energy(&|body| self.bodies[body].u) > allowed * (1.0 + GAIN) {
-                let u = island.bodies.iter().map(|&body| self.bodies[body].u).collect();
-                let impulses = island.contacts.iter().map(|&index| self.lines[index].impulse).collect();
+            let rebounds = island.contacts.iter().any(|&index| rows[index].offset < rows[index].reached);
+            let missed = |missed: &[bool]| island.contacts.iter().any(|&index| missed[index]);
+            let contradictory = rebounds && unsolved.is_some_and(missed);
+            if contradictory || energy(&|body| self.bodies[body].u) > allowed * (1.0 + GAIN) {
+                let (u, impulses) = if contradictory {
+                    (Vec::new(), Vec::new())
+                } else {
+                    let impulses = island.contacts.iter().map(|&index| self.lines[index].impulse).collect();
+                    (island.bodies.iter().map(|&body| self.bodies[body].u).collect(), impulses)
+                };
                 gains.push(Gain { island, u, impulses, allowed });
             }
         }
@@ -258,6 +303,9 @@ impl Solver {
                 let line = &mut self.lines[index];
                 line.settled = false;
                 line.offset = rows[index].reached;
+                if gain.u.is_empty() {
+                    line.impulse = rows[index].impulse;
+                }
                 push(&mut self.bodies, line, line.impulse);
             }
         }
@@ -265,7 +313,7 @@ impl Solver {
 
     /// u = u_without + s (u_with − u_without), with Σ m u² = what is allowed, and likewise the impulses.
     fn take_means(&mut self, model: &Model) {
-        for gain in &self.gains {
+        for gain in self.gains.iter().filter(|gain| !gain.u.is_empty()) {
             let (mut without, mut mixed, mut change) = (0.0, 0.0, 0.0);
             for (&body, &with) in gain.island.bodies.iter().zip(&gain.u) {
                 let (m, u) = (model.masses[body], self.bodies[body].u);
@@ -293,13 +341,19 @@ impl Solver {
         self.lines.iter().map(|line| (line.a as usize, other(line))).collect()
     }
 
-    /// Solves those unsettled islands directly that are small enough and whose ratio of masses is `wanted`.
-    fn solve_directly(&mut self, model: &Model, free: &[DVec3], most_rows: usize, wanted: impl Fn(f64) -> bool) {
+    /// Solves those unsettled islands directly that are small enough and `wanted`, by themselves and their ratio of masses.
+    fn solve_directly(
+        &mut self,
+        model: &Model,
+        free: &[DVec3],
+        most_rows: usize,
+        wanted: impl Fn(&Island, f64) -> bool,
+    ) {
         for island in islands(&self.links()) {
             let masses = island.bodies.iter().map(|&body| model.masses[body]);
             let (least, most) = masses.fold((f64::INFINITY, 0.0_f64), |(l, m), mass| (l.min(mass), m.max(mass)));
             let settled = self.lines[island.contacts[0]].settled;
-            if settled || island.contacts.len() > most_rows || !wanted(most / least) {
+            if settled || island.contacts.len() > most_rows || !wanted(&island, most / least) {
                 continue;
             }
             let rows: Vec<_> = island.contacts.iter().map(|&index| row(&self.lines[index])).collect();
