@@ -4,7 +4,7 @@
 //! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture joints` is the whole campaign of one generator:
 //! `rooms`, `joints`, `funnels`, `tubes`, `stacks`, `crowds`, `units`. The ordinary suite runs the first few scenes of each, and
 //! those rooms that ever failed as far as that takes less than a second each; with `seeds` the campaign runs all that ever
-//! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed.
+//! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed, `CAROM_CAMPAIGN_BUDGET` the turns after which a scene hangs.
 
 #[path = "campaign/crowds.rs"]
 mod crowds;
@@ -114,7 +114,8 @@ fn campaign(few: u64, halves: u32, check: Check) -> (Met, u64) {
 }
 
 fn judged_by(few: u64, generator: &Generator) -> (Met, u64) {
-    campaign(few, generator.halves, &|seed, halves, met| judged::check(generator, seed, halves, met))
+    let generator = Generator { budget: number("CAROM_CAMPAIGN_BUDGET", generator.budget), ..*generator };
+    campaign(few, generator.halves, &|seed, halves, met| judged::check(&generator, seed, halves, met))
 }
 
 #[test]

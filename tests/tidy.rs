@@ -36,7 +36,7 @@ const PLAN: &[(&str, &[&str])] = &[
     ("view", &["geometry", "snapshot"]),
     ("frame", &[]),
     ("measure", &["export", "geometry", "physics", "scene"]),
-    ("text_mode", &["export", "physics", "scene"]),
+    ("text_mode", &["audit", "export", "physics", "scene"]),
     ("export", &["physics"]),
     ("audit", &["physics"]),
     ("snapshot", &["audit", "geometry", "physics", "scene"]),
@@ -72,9 +72,8 @@ const OUTER_WORLD: &[&str] = &["time", "thread", "fs", "io", "net", "process", "
 const BLIND: &[&str] = &["physics", "geometry", "roots", "audit", "snapshot", "view"];
 
 /// What the judge may know of the physics: what a run tells, never how it was found.
-const TOLD: &[&str] = &[
-    "Class", "Contact", "Kind", "Method", "Model", "Settings", "Simulation", "State", "Tallies", "contact", "model",
-];
+const TOLD: &[&str] =
+    &["Class", "Contact", "Kind", "Method", "Model", "Settings", "Simulation", "State", "Tallies", "contact", "model"];
 
 /// What only a mathematical library computes: its last bit differs from machine to machine.
 const INEXACT: &[&str] = &[

@@ -77,12 +77,7 @@ impl Board {
             }
             propose(offset);
         }
-        for (from, along) in [
-            (DVec3::ZERO, self.s1),
-            (DVec3::ZERO, self.s2),
-            (self.s2, self.s1),
-            (self.s1, self.s2),
-        ] {
+        for (from, along) in [(DVec3::ZERO, self.s1), (DVec3::ZERO, self.s2), (self.s2, self.s1), (self.s1, self.s2)] {
             let arm = self.arm(p) - from;
             let share = (arm.dot(along) / along.dot(along)).clamp(0.0, 1.0);
             propose(arm - along * share);
@@ -108,9 +103,7 @@ mod tests {
         let board = Board::new(center, s1, s2);
         for k in 0..343 {
             let p = dvec3(f64::from(k % 7), f64::from(k / 7 % 7), f64::from(k / 49)) - dvec3(3.0, 3.0, 3.0);
-            let point = |i: i32, j: i32| {
-                center + s1 * (f64::from(i) / 200.0 - 0.5) + s2 * (f64::from(j) / 200.0 - 0.5)
-            };
+            let point = |i: i32, j: i32| center + s1 * (f64::from(i) / 200.0 - 0.5) + s2 * (f64::from(j) / 200.0 - 0.5);
             let grid = (0..=200).flat_map(|i| (0..=200).map(move |j| (i, j)));
             let least = grid.map(|(i, j)| (p - point(i, j)).length()).fold(f64::INFINITY, f64::min);
             let found = board.offset(p).length();

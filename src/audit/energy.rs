@@ -9,10 +9,14 @@ use super::finding::{Bodies, Fault, Findings};
 /// Ulps of the energy's terms that a run may gain at first; each impact may add one.
 const ULPS: f64 = 4096.0;
 
+/// Share of the energy's terms that the motion of one frame may lose: curved rest is integrated to some digits less.
+const MOTION: f64 = 1e-11;
+
 /// The least energy seen.
 #[derive(Debug, Clone)]
 pub(super) struct Energy {
     least: f64,
+    last: f64,
     /// Largest Σ of the energy's terms, each taken positive, J: what rounding is relative to.
     size: f64,
     impacts: u64,
@@ -21,7 +25,7 @@ pub(super) struct Energy {
 impl Energy {
     pub(super) fn new(model: &Model, state: &State) -> Energy {
         let (least, size) = energy(model, state);
-        Energy { least, size, impacts: 0 }
+        Energy { least, last: least, size, impacts: 0 }
     }
 
     /// By how much a state's energy is above the least seen, and what rounding allows, J; `impacts` since the last state.
@@ -30,15 +34,28 @@ impl Energy {
         self.size = self.size.max(size);
         self.impacts += impacts;
         let rise = now - self.least;
+        self.last = now;
         self.least = self.least.min(now);
         let ulps = ULPS + self.impacts as f64 + model.len() as f64;
         [rise, ulps * f64::EPSILON * self.size]
     }
 
-    /// Judges a state.
-    pub(super) fn look(&mut self, model: &Model, state: &State, impacts: u64, findings: &mut Findings) {
+    /// Judges a state; `explained` (J) is what impacts and rests may have taken since the last one, if that is known.
+    pub(super) fn look(
+        &mut self,
+        model: &Model,
+        state: &State,
+        impacts: u64,
+        explained: Option<f64>,
+        findings: &mut Findings,
+    ) {
+        let before = self.last;
         let rise = self.rise(model, state, impacts);
         findings.hold(Fault::Energy, state.t, Bodies::All, rise);
+        if let Some(explained) = explained {
+            let lost = [before - self.last - explained, MOTION * self.size];
+            findings.hold(Fault::Loss, state.t, Bodies::All, lost);
+        }
     }
 }
 

@@ -35,6 +35,8 @@ pub enum Fault {
     Friction,
     /// Energy has risen, J.
     Energy,
+    /// Energy has gone that no impact and no rest has taken, J.
+    Loss,
     /// What is said to rest moves along its normal, m/s.
     RestSpeed,
     /// What is said to rest does not touch; the value is the gap, m.
@@ -58,6 +60,7 @@ impl Fault {
             Fault::Momentum => ("no force explains a change of momentum of", " kg m/s"),
             Fault::Friction => ("tangential speed is taken at one point, times", ""),
             Fault::Energy => ("the energy rises by", " J"),
+            Fault::Loss => ("no impact and no rest takes an energy of", " J"),
             Fault::RestSpeed => ("what rests moves along its normal with", " m/s"),
             Fault::RestGap => ("what rests is apart or too deep by", " m"),
         }

@@ -80,8 +80,8 @@ pub(super) fn judge_place(model: &Model, promise: Promise, state: &State, row: &
     findings.hold(Fault::Point, row.time, bodies, [off, point[1].x + 4.0 * rounding]);
 }
 
-/// The loss of tangential speed at one point of the walls is taken once: two impacts of a sphere at the same point with the
-/// same normal, and none with another body in between, are one.
+/// The loss of tangential speed at one point of the walls is taken once: two impacts of a sphere in a row at the same point,
+/// with the same normal and at the same time, are one. What has sent it back in between is a contact of its own.
 pub(super) fn judge_friction(model: &Model, contacts: &[Contact], time: f64, findings: &mut Findings) {
     if model.law.tangential == 1.0 {
         return;
@@ -89,10 +89,9 @@ pub(super) fn judge_friction(model: &Model, contacts: &[Contact], time: f64, fin
     let impacts: Vec<&Contact> = contacts.iter().filter(|row| row.class == Class::Collide).collect();
     for (k, one) in impacts.iter().enumerate().filter(|(_, row)| row.kind == Kind::Wall) {
         let near = SAME * model.radii[one.a] + ULPS * one.point.abs().max_element();
-        let later = impacts[k + 1..].iter().take_while(|row| row.kind == Kind::Wall || !touches(row, one.a));
-        let again = later.filter(|row| {
+        let own = impacts[k + 1..].iter().filter(|row| touches(row, one.a));
+        let again = own.take_while(|row| {
             row.kind == Kind::Wall
-                && row.a == one.a
                 && row.time == one.time
                 && (row.point - one.point).length() <= near
                 && (row.normal - one.normal).length() <= SAME

@@ -9,7 +9,7 @@
 //! | `overlap` | overlap, passage through walls |
 //! | `law` | each contact by itself: its normal, its impulse, its jump of velocity |
 //! | `replay` | velocities between two frames: impulses and forces explain them, momentum with the walls |
-//! | `energy` | that energy never rises |
+//! | `energy` | that energy never rises, and falls by no more than impacts and rests take |
 //! | `rest` | that what rests is at rest |
 //! | `watch` | the cheapest part, for every run: the deepest overlap, and energy |
 //!
@@ -110,9 +110,9 @@ impl Judge {
         law::judge_friction(model, contacts, state.t, found);
         rest::judge(model, &self.settings, frame, found);
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
-        self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
+        let explained = self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
         let impacts = contacts.iter().filter(|row| row.class == Class::Collide).count();
-        self.energy.look(model, state, impacts as u64, found);
+        self.energy.look(model, state, impacts as u64, explained, found);
         self.before.clone_from(state);
         self.held = held;
         self.answered.clear();
@@ -123,7 +123,7 @@ impl Judge {
     pub fn state(&mut self, model: &Model, state: &State, contacts: &[Contact]) {
         let promise = Promise::of(&self.settings);
         self.overlaps.look(model, state, contacts, promise, &mut self.findings);
-        self.energy.look(model, state, 0, &mut self.findings);
+        self.energy.look(model, state, 0, None, &mut self.findings);
     }
 
     /// What was found so far.

@@ -16,6 +16,9 @@ use super::promise::ULPS;
 /// Share of the speeds that rounding may leave unexplained: impacts of bodies of very different mass lose some digits.
 const ROUNDING: f64 = 1e-11;
 
+/// Height of a hop, in radii, below which event-driven methods let a row of bounces end in rest without telling each.
+const HOP: f64 = 1e-6;
+
 /// Who touches, and so may be held, stopped or released by what is no impact of the frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Freedom<'a> {
@@ -49,7 +52,8 @@ impl Replay {
         Replay { known: Vec::new(), scale: state.v.iter().map(|v| v.length()).collect() }
     }
 
-    /// Judges the velocities at the ends of two frames, and the contacts between.
+    /// Judges the velocities at the ends of two frames, and the contacts between; the energy (J) that impacts and rests may
+    /// have taken, where the method answers contacts one by one.
     pub(super) fn judge(
         &mut self,
         model: &Model,
@@ -57,16 +61,18 @@ impl Replay {
         [before, after]: [&State; 2],
         (contacts, free): (&[Contact], Freedom),
         findings: &mut Findings,
-    ) {
+    ) -> Option<f64> {
         self.known.clear();
         self.known.extend(before.v.iter().map(|&v| Known { v, t: before.t, struck: false }));
         for (scale, (v, w)) in self.scale.iter_mut().zip(before.v.iter().zip(&after.v)) {
             *scale = scale.max(v.length()).max(w.length());
         }
         let bound = free_spheres(model, free, contacts);
-        if matches!(method, Method::Exact | Method::Swept) {
+        let one_by_one = matches!(method, Method::Exact | Method::Swept);
+        let mut taken = bound.slack;
+        if one_by_one {
             for row in contacts.iter().filter(|row| row.class == Class::Collide) {
-                self.strike(model, after, row, &bound, findings);
+                taken += self.strike(model, after, row, &bound, findings);
             }
             for i in (0..model.len()).filter(|&i| !bound.holds[i]) {
                 self.fly(model, i, after.t);
@@ -80,6 +86,7 @@ impl Replay {
                 *scale = v.length();
             }
         }
+        one_by_one.then_some(taken)
     }
 
     /// Lets sphere `i` fly until `t` (s).
@@ -89,8 +96,8 @@ impl Replay {
         known.t = t;
     }
 
-    /// Does an impact again, from the velocities known.
-    fn strike(&mut self, model: &Model, after: &State, row: &Contact, bound: &Bound, findings: &mut Findings) {
+    /// Does an impact again, from the velocities known; the energy that it takes, J.
+    fn strike(&mut self, model: &Model, after: &State, row: &Contact, bound: &Bound, findings: &mut Findings) -> f64 {
         let pair = row.kind == Kind::Pair;
         let (a, b, n) = (row.a, row.b, row.normal);
         self.fly(model, a, row.time);
@@ -102,11 +109,16 @@ impl Replay {
         let relative = self.known[a].v - if pair { self.known[b].v } else { DVec3::ZERO };
         let v_n = relative.dot(n);
         if !(bound.holds[a] || (pair && bound.holds[b])) {
-            // a place rounded by some ulp is worth so much of a small normal velocity
             let slack = self.slack(model, after, a) + if pair { self.slack(model, after, b) } else { 0.0 };
-            findings.hold(Fault::Approach, row.time, row.into(), [(v_n + row.approach_speed).abs(), slack]);
+            // of a slow approach a place rounded by some ulp is worth more: compared as squares
+            let worth = self.worth(model, after, a) + if pair { self.worth(model, after, b) } else { 0.0 };
+            let off = (v_n + row.approach_speed).abs();
+            let bound = slack.max(worth / (v_n.abs() + row.approach_speed.abs()));
+            findings.hold(Fault::Approach, row.time, row.into(), [off, bound]);
         }
-        let change = -(1.0 + restitution(model, row.kind)) * v_n;
+        let e = restitution(model, row.kind);
+        let change = -(1.0 + e) * v_n;
+        let mut taken = 0.5 * reduced_mass(model, row) * (1.0 - e * e) * row.approach_speed * row.approach_speed;
         self.known[a].struck = true;
         if pair {
             self.known[b].struck = true;
@@ -114,18 +126,27 @@ impl Replay {
             self.known[a].v += impulse / model.masses[a];
             self.known[b].v -= impulse / model.masses[b];
         } else {
-            let across = relative - n * v_n;
-            self.known[a].v += n * change + across * (model.law.tangential - 1.0);
+            let (across, keeps) = (relative - n * v_n, model.law.tangential);
+            // what rests also may strike with what its support has left of its velocity, or given it
+            let most = across.length().max(self.scale[a]);
+            let across_squared = if bound.holds[a] { most * most } else { across.length_squared() };
+            taken += 0.5 * model.masses[a] * (1.0 - keeps * keeps) * across_squared;
+            self.known[a].v += n * change + across * (keeps - 1.0);
         }
+        taken
     }
 
-    /// What may stay unexplained of a velocity, m/s: rounding of speeds and of the clock, and for what has been struck what
-    /// rounding of its place is worth.
+    /// What rounding of a sphere's place is worth, m²/s²: 2 a · 64 ulp.
+    fn worth(&self, model: &Model, after: &State, i: usize) -> f64 {
+        2.0 * model.acceleration(i).length() * 4.0 * ULPS * (after.x[i].abs().max_element() + model.radii[i])
+    }
+
+    /// What may stay unexplained of a velocity, m/s: rounding of speeds and of the clock, for what has been struck what
+    /// rounding of its place is worth, and the slow approaches that the law stops without an impact.
     fn slack(&self, model: &Model, after: &State, i: usize) -> f64 {
         let pull = model.acceleration(i).length();
-        let flight = ROUNDING * self.scale[i] + ULPS * after.t.abs() * pull;
-        let place = (2.0 * pull * 4.0 * ULPS * (after.x[i].abs().max_element() + model.radii[i])).sqrt();
-        if self.known[i].struck { flight + place } else { flight }
+        let flight = ROUNDING * self.scale[i] + ULPS * after.t.abs() * pull + 2.0 * model.law.rest_speed;
+        if self.known[i].struck { flight + self.worth(model, after, i).sqrt() } else { flight }
     }
 
     /// Bodies joined by contacts, none of them with a wall, keep their momentum but for what forces give.
@@ -156,6 +177,8 @@ struct Bound {
     parent: Vec<usize>,
     /// By the group's root, whether one of it touches a wall.
     walled: Vec<bool>,
+    /// Energy that slow approaches and ends of bouncing may take without an impact, J.
+    slack: f64,
 }
 
 impl Bound {
@@ -177,10 +200,14 @@ impl Bound {
 /// Who is bound by what touches, rests or collides in a frame.
 fn free_spheres(model: &Model, free: Freedom, contacts: &[Contact]) -> Bound {
     let n = model.len();
-    let mut bound = Bound { holds: vec![false; n], parent: (0..n).collect(), walled: vec![false; n] };
+    let slow = 2.0 * model.law.rest_speed * model.law.rest_speed;
+    let slack = model.masses.iter().map(|m| m * slow).sum();
+    let mut bound = Bound { holds: vec![false; n], parent: (0..n).collect(), walled: vec![false; n], slack };
     let mut held = Vec::new();
     for &(kind, a, b) in free.before.iter().chain(free.after) {
         held.push((kind, a, b));
+        let hop = |i: usize| HOP * model.masses[i] * model.acceleration(i).length() * model.radii[i];
+        bound.slack += hop(a) + if kind == Kind::Pair { hop(b) } else { 0.0 };
         bound.holds[a] = true;
         if kind == Kind::Pair {
             bound.holds[b] = true;

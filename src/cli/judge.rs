@@ -12,6 +12,8 @@ const TOLD: usize = 10;
 pub(super) struct Jury {
     watch: Watch,
     judge: Option<Judge>,
+    /// End of the run, s: what happens later is no part of it.
+    until: f64,
     /// Whether a frame has just been completed that the judge has not seen.
     fresh: bool,
     /// Events of the frame in progress, for the judge.
@@ -20,9 +22,9 @@ pub(super) struct Jury {
 
 impl Jury {
     /// For a simulation that has just begun.
-    pub(super) fn new(simulation: &Simulation, check: bool) -> Jury {
+    pub(super) fn new(simulation: &Simulation, until: f64, check: bool) -> Jury {
         let judge = check.then(|| Judge::of(simulation));
-        Jury { watch: Watch::new(simulation), judge, fresh: false, events: Vec::new() }
+        Jury { watch: Watch::new(simulation), judge, until, fresh: false, events: Vec::new() }
     }
 
     /// Advances by a slice, towards `time` (s); with a judge by a frame at most.
@@ -33,18 +35,20 @@ impl Jury {
         };
         let progress = simulation.advance(until, slice);
         self.fresh = progress == Progress::Reached;
-        self.watch.look(simulation, progress == Progress::Yielded);
+        if simulation.time() <= self.until {
+            self.watch.look(simulation, progress == Progress::Yielded && self.judge.is_none());
+        }
         progress
     }
 
-    /// Shows the judge the frame that has just ended, if one has; a frame beyond the end of the run is no part of it.
-    pub(super) fn judge(&mut self, simulation: &Simulation, events: &[Contact], until: f64) {
+    /// Shows the judge the frame that has just ended, if one has.
+    pub(super) fn judge(&mut self, simulation: &Simulation, events: &[Contact]) {
         let Some(judge) = &mut self.judge else { return };
         self.events.extend_from_slice(events);
         if !std::mem::take(&mut self.fresh) {
             return;
         }
-        if simulation.time() <= until {
+        if simulation.time() <= self.until {
             judge.frame(simulation, &self.events);
         }
         self.events.clear();

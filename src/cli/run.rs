@@ -31,7 +31,7 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     }
     let simulation = Simulation::new(&opened.scene, settings);
     let mut recorder = Recorder {
-        jury: Jury::new(&simulation, arguments.check),
+        jury: Jury::new(&simulation, until, arguments.check),
         simulation,
         until,
         states: table::<StateRow>(arguments.states.as_ref())?,
@@ -121,7 +121,7 @@ impl Recorder<'_> {
     /// The last frame may reach beyond the end of the run: what happens there belongs to no row.
     fn write_events(&mut self) -> Result<(), Failure> {
         let events = self.simulation.take_events();
-        self.jury.judge(&self.simulation, &events, self.until);
+        self.jury.judge(&self.simulation, &events);
         for event in events.iter().filter(|event| event.time <= self.until) {
             self.impacts += u64::from(event.class == Class::Collide);
             if let Some(table) = &mut self.events {

@@ -56,7 +56,7 @@ fn angle(random: &mut Random) -> f64 {
 
 /// Two leaves that share an edge, each at its own angle.
 fn bend(random: &mut Random, axes: Axes) -> Vec<Wall> {
-    let first = random.pick(&[0.0, 0.0, 0.2, -0.2]);
+    let first: f64 = random.pick(&[0.0, 0.0, 0.2, -0.2]);
     let second = angle(random);
     let corner = axes.along * -4.0;
     let left = axes.across * -first.cos() + axes.up * first.sin();

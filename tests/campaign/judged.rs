@@ -74,7 +74,8 @@ pub(crate) fn check(generator: &Generator, seed: u64, halves: u32, met: &mut Met
     met.curved_time = run.tallies().inexact_time;
     met.hash = run.state().hash();
     met.resting.clear();
-    verdict.map_err(|failure| Failure { text: format!("seed {seed} at t = {}: {}", run.time(), failure.text), ..failure })
+    verdict
+        .map_err(|failure| Failure { text: format!("seed {seed} at t = {}: {}", run.time(), failure.text), ..failure })
 }
 
 fn fail(kind: &str, text: String) -> Result<(), Failure> {

@@ -83,7 +83,8 @@ pub(crate) fn stack_scene(seed: u64) -> Scene {
         1 => (0..random.pick(&[2, 4, 6])).map(|k| dvec3(f64::from(k) * step - 2.0 * r, r, 0.0)).collect(),
         2 => {
             let rise = 0.75_f64.sqrt() * step;
-            let at = |row: u32, k: u32| dvec3((f64::from(k) + 0.5 * f64::from(row)) * step, r + f64::from(row) * rise, 0.0);
+            let at =
+                |row: u32, k: u32| dvec3((f64::from(k) + 0.5 * f64::from(row)) * step, r + f64::from(row) * rise, 0.0);
             (0..3).flat_map(|row| (0..3 - row).map(move |k| (row, k))).map(|(row, k)| at(row, k)).collect()
         }
         _ => {

@@ -1,7 +1,7 @@
 //! What several generators share: free places, gravity, a room around.
 
-use carom::physics::contact_time::touch;
 use carom::physics::Model;
+use carom::physics::contact_time::touch;
 use carom::scene::{Sphere, Wall};
 use glam::DVec3;
 
@@ -46,4 +46,3 @@ pub(crate) fn free_spheres(
     }
     spheres
 }
-

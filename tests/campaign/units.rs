@@ -102,7 +102,9 @@ pub(crate) fn check(seed: u64, until: f64, met: &mut Met) -> Result<(), Failure>
         };
         match apart(event, it, length, time) {
             Some(off) if off <= allowed => {}
-            Some(off) => return fail("deviates", format!("event {k} is off by {off:e}, its twin by {grown:e}: {event:?}")),
+            Some(off) => {
+                return fail("deviates", format!("event {k} is off by {off:e}, its twin by {grown:e}: {event:?}"));
+            }
             // of events at one time, rounding may choose the first
             None if is_tied(&plain, k, allowed) => return Ok(()),
             None => return fail("differs", format!("event {k}: {event:?} became {it:?}")),
