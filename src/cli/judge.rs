@@ -8,7 +8,7 @@ use crate::physics::{Contact, Progress, Simulation, State, Until};
 /// Findings that are told one by one.
 const TOLD: usize = 10;
 
-/// The watch, and the judge if he was asked for.
+/// The watch, and the judge if it was asked for.
 pub(super) struct Jury {
     watch: Watch,
     judge: Option<Judge>,
