@@ -1,7 +1,10 @@
 //! Each contact by itself: its normal, its impulse, its jump of velocity, as the impact law has them.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
+use crate::physics::contact::Key;
 use crate::physics::{Class, Contact, Kind, Method, Model, State};
 
 use super::distance::Board;
@@ -81,12 +84,20 @@ pub(super) fn judge_place(model: &Model, promise: Promise, state: &State, row: &
 }
 
 /// The loss of tangential speed at one point of the walls is taken once: two impacts of a sphere in a row at the same point,
-/// with the same normal and at the same time, are one. What has sent it back in between is a contact of its own.
-pub(super) fn judge_friction(model: &Model, contacts: &[Contact], time: f64, findings: &mut Findings) {
+/// with the same normal and at the same time, are one. What has sent it back in between is a contact of its own; one that
+/// rests may do so without a row, so that spheres which something else holds are left out.
+pub(super) fn judge_friction(
+    model: &Model,
+    contacts: &[Contact],
+    held: &BTreeSet<Key>,
+    time: f64,
+    findings: &mut Findings,
+) {
     if model.law.tangential == 1.0 {
         return;
     }
     let impacts: Vec<&Contact> = contacts.iter().filter(|row| row.class == Class::Collide).collect();
+    let is_held = |i: usize| held.iter().any(|&(kind, a, b)| a == i || (kind == Kind::Pair && b == i));
     for (k, one) in impacts.iter().enumerate().filter(|(_, row)| row.kind == Kind::Wall) {
         let near = SAME * model.radii[one.a] + ULPS * one.point.abs().max_element();
         let own = impacts[k + 1..].iter().filter(|row| touches(row, one.a));
@@ -97,6 +108,9 @@ pub(super) fn judge_friction(model: &Model, contacts: &[Contact], time: f64, fin
                 && (row.normal - one.normal).length() <= SAME
         });
         let times = 1 + again.count();
+        if times == 1 || is_held(one.a) {
+            continue;
+        }
         findings.hold(Fault::Friction, time, Bodies::Sphere(one.a), [times as f64, 1.0]);
     }
 }

@@ -107,7 +107,7 @@ impl Judge {
         let held = self.overlaps.held(model, contacts);
         events.iter().for_each(|row| law::judge(model, self.settings.method, row, found));
         contacts.iter().for_each(|row| law::judge_place(model, promise, state, row, found));
-        law::judge_friction(model, contacts, state.t, found);
+        law::judge_friction(model, contacts, &held, state.t, found);
         rest::judge(model, &self.settings, frame, found);
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
         let explained = self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
