@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use crate::audit::Watch;
 use crate::physics::{Class, Contact, Kind, Progress, Simulation, Stall, Until};
 use crate::scene::{Scene, Settings};
 
@@ -28,11 +29,18 @@ pub fn tell(scene: &Scene, settings: Settings, out: &mut impl Write, keep_on: im
     simulation.record_events(true);
     introduce(scene, settings, out)?;
     let mut impacts = 0;
+    let mut watch = Watch::new(&simulation);
+    let (mut told, slice) = (false, SLICE.min(watch.slice(simulation.model())));
     loop {
         let progress = match simulation.time() < scene.duration {
-            true => simulation.advance(Until::Time(scene.duration), SLICE),
+            true => simulation.advance(Until::Time(scene.duration), slice),
             false => Progress::Reached,
         };
+        watch.look(&simulation, progress != Progress::Reached);
+        if simulation.time() <= scene.duration && !told && !watch.alarm().is_silent() {
+            told = true;
+            writeln!(out, "Alarm: {}.", watch.alarm())?;
+        }
         for event in simulation.take_events().iter().filter(|event| event.time <= scene.duration) {
             impacts += u64::from(event.class == Class::Collide);
             writeln!(out, "{}", sentence(scene, event))?;
@@ -41,7 +49,13 @@ pub fn tell(scene: &Scene, settings: Settings, out: &mut impl Write, keep_on: im
         match progress {
             Progress::Yielded if !keep_on() => return Ok(Ending::Stopped),
             Progress::Yielded => {}
-            Progress::Reached => return conclude(scene, &simulation, impacts, out),
+            Progress::Reached => {
+                watch.state(simulation.model(), &simulation.at(scene.duration), 0);
+                if !told && !watch.alarm().is_silent() {
+                    writeln!(out, "Alarm: {}.", watch.alarm())?;
+                }
+                return conclude(scene, &simulation, impacts, out);
+            }
             Progress::Stalled(stall) => return give_up(stall, impacts, out),
         }
     }

@@ -105,6 +105,9 @@ pub(super) struct Run {
     /// Write collisions, rests and releases, likewise
     #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
     pub(super) events: Option<Target>,
+    /// Have an independent judge look at every frame and event; exit code 1 if it finds anything
+    #[arg(long)]
+    pub(super) check: bool,
     #[command(flatten)]
     pub(super) solver: Solver,
 }

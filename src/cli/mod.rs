@@ -7,6 +7,7 @@
 //! | `failure` | how a command can end, its exit code and its one line |
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
+//! | `judge` | what watches and judges a run of `carom run` |
 //! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
 
@@ -15,6 +16,7 @@ mod arguments;
 mod check;
 mod completions;
 mod failure;
+mod judge;
 mod list;
 mod man;
 mod measure;

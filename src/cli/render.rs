@@ -11,7 +11,8 @@ use super::arguments::{Display, Format, Render};
 use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
-use crate::physics::{Class, Progress, Simulation, Stall, Until};
+use crate::audit::Watch;
+use crate::physics::{Class, Progress, Simulation, Stall, State, Until};
 use crate::scene::{self, Opened, Settings};
 use crate::snapshot::{Snapshot, Stage, Ticks};
 use crate::view::{self, Look, Mode, Pace, Popup, Screen};
@@ -49,16 +50,24 @@ fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Res
     simulation.record_events(true);
     let (mut ticks, mut stall) = (Ticks::new(opened.scene.duration), None);
     let mut impacts = count(&mut simulation, at, &mut ticks);
+    let mut watch = Watch::new(&simulation);
+    let slice = SLICE.min(watch.slice(simulation.model()));
     while simulation.time() < at && stall.is_none() {
-        if let Progress::Stalled(why) = simulation.advance(Until::Time(at), SLICE) {
+        if let Progress::Stalled(why) = simulation.advance(Until::Time(at), slice) {
             stall = Some(why);
+        }
+        if simulation.time() <= at {
+            watch.look(&simulation, true);
         }
         impacts += count(&mut simulation, at, &mut ticks);
         signals.check()?;
     }
     let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
     let whole = Snapshot::of(&stage, &simulation, stall.as_ref());
-    Ok(Shown { snapshot: cut(whole, &simulation, at, impacts), ticks, stall })
+    let shown = cut(whole, &simulation, at, impacts);
+    let state = State { t: shown.t, x: shown.x.clone(), v: shown.v.clone() };
+    watch.state(simulation.model(), &state, shown.tallies.impacts);
+    Ok(Shown { snapshot: Snapshot { alarm: *watch.alarm(), ..shown }, ticks, stall })
 }
 
 /// Impacts since the last call, as far as the frame shows them.

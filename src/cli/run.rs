@@ -7,10 +7,11 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::accuracy;
 use super::arguments::Run;
 use super::failure::{Failure, note};
+use super::judge::Jury;
 use super::output::{Output, Target};
 use super::signals::Signals;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
-use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies, Until};
+use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 use crate::scene;
 
 /// Units of work between two looks at signals and progress: some milliseconds. No bit of a result depends on it.
@@ -28,8 +29,10 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     for warning in scene::warnings(&opened.scene, settings) {
         note(&format!("{}: {warning}", opened.key));
     }
+    let simulation = Simulation::new(&opened.scene, settings);
     let mut recorder = Recorder {
-        simulation: Simulation::new(&opened.scene, settings),
+        jury: Jury::new(&simulation, until, arguments.check),
+        simulation,
         until,
         states: table::<StateRow>(arguments.states.as_ref())?,
         events: table::<EventRow>(arguments.events.as_ref())?,
@@ -76,6 +79,7 @@ fn progress_bar() -> ProgressBar {
 /// A run being written down.
 struct Recorder<'a> {
     simulation: Simulation,
+    jury: Jury,
     until: f64,
     states: Option<Table<Output>>,
     events: Option<Table<Output>>,
@@ -103,7 +107,7 @@ impl Recorder<'_> {
     /// Advances until a frame holds `time`, slice by slice.
     fn reach(&mut self, time: f64) -> Result<Option<Stall>, Failure> {
         while self.simulation.time() < time {
-            let progress = self.simulation.advance(Until::Time(time), SLICE);
+            let progress = self.jury.advance(&mut self.simulation, time);
             self.write_events()?;
             self.signals.check()?;
             self.progress.set_position((self.simulation.time() / self.until * STEPS) as u64);
@@ -116,7 +120,9 @@ impl Recorder<'_> {
 
     /// The last frame may reach beyond the end of the run: what happens there belongs to no row.
     fn write_events(&mut self) -> Result<(), Failure> {
-        for event in self.simulation.take_events().iter().filter(|event| event.time <= self.until) {
+        let events = self.simulation.take_events();
+        self.jury.judge(&self.simulation, &events);
+        for event in events.iter().filter(|event| event.time <= self.until) {
             self.impacts += u64::from(event.class == Class::Collide);
             if let Some(table) = &mut self.events {
                 table.write(&EventRow::from(event))?;
@@ -131,10 +137,12 @@ impl Recorder<'_> {
     }
 
     /// Puts the files in their places and says how the run ended.
-    fn close(self, stall: Option<Stall>, on_stdout: bool) -> Result<(), Failure> {
+    fn close(mut self, stall: Option<Stall>, on_stdout: bool) -> Result<(), Failure> {
         self.progress.finish_and_clear();
         let end = if stall.is_some() { self.simulation.state() } else { self.simulation.at(self.until) };
-        let line = closing_line(&end, self.impacts, end.energy(self.simulation.model()), stall.as_ref());
+        self.jury.close(&self.simulation, &end);
+        let mut line = closing_line(&end, self.impacts, end.energy(self.simulation.model()), stall.as_ref());
+        line.push_str(&self.jury.words());
         for table in [self.states, self.events].into_iter().flatten() {
             table.finish()?.finish()?;
         }
@@ -146,10 +154,11 @@ impl Recorder<'_> {
             let _ = writeln!(std::io::stderr(), "{line}"); // if nobody can read it, the exit code still tells
         }
         unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
-        stall.map_or(Ok(()), |stall| {
+        self.jury.sentences().iter().for_each(|sentence| note(sentence));
+        if let Some(stall) = &stall {
             note(&stall.reason);
-            Err(Failure::Told)
-        })
+        }
+        if stall.is_some() || self.jury.condemns() { Err(Failure::Told) } else { Ok(()) }
     }
 }
 

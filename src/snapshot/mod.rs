@@ -11,6 +11,7 @@ use glam::DVec3;
 pub use ticks::Ticks;
 pub use trend::{Trade, Trend};
 
+pub use crate::audit::Alarm;
 use crate::geometry::Bounds;
 pub use crate::physics::{Class, Contact, Kind, Probe, Tallies};
 use crate::physics::{Scene, Simulation, Stall, State};
@@ -89,6 +90,8 @@ pub struct Snapshot {
     pub tolerance: f64,
     /// Why the run cannot go on, if it cannot: a full sentence.
     pub stall: Option<String>,
+    /// What the watch over the run has found wrong since its start.
+    pub alarm: Alarm,
 }
 
 impl Snapshot {
@@ -111,6 +114,7 @@ impl Snapshot {
             dt: settings.dt,
             tolerance: settings.tolerance,
             stall: stall.map(|stall| stall.reason.clone()),
+            alarm: Alarm::default(),
         }
     }
 }

@@ -239,6 +239,7 @@ fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
         if let (Some(area), Some(beside)) = (plan.trade, &screen.beside) {
             trade::draw(screen, beside, area, sheet);
         }
+        status::draw_alarm(screen, plan.body, sheet);
         status::draw_stall(screen, plan.body, sheet);
     }
     if let Some(area) = plan.timeline {

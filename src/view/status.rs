@@ -35,7 +35,11 @@ impl Field {
 /// Draws the status row: badge, scene, then as many fields as fit, the most telling first.
 pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (word, style) = badge(screen.pace.mode, sheet);
-    let used = sheet.put(area, &format!("{word:^7}"), style);
+    let mut used = sheet.put(area, &format!("{word:^7}"), style);
+    if !screen.snapshot.alarm.is_silent() {
+        let alarm = sheet.palette.alarm().patch(sheet.palette.reverse()).patch(sheet.palette.strong());
+        used += 1 + sheet.put(split_left(area, used + 1).1, " ALARM ", alarm);
+    }
     let (_, area) = split_left(area, used + 1);
     let (area, _) = split_right(area, 1);
     let key = &screen.snapshot.stage.key;
@@ -108,9 +112,33 @@ pub(super) fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
             rest = below;
         }
     }
+    for sentence in screen.snapshot.alarm.sentences() {
+        for line in sheet::wrap(&format!("ALARM {sentence}"), rest.width) {
+            let (row, below) = split_top(rest, 1);
+            sheet.put(row, &line, sheet.palette.alarm());
+            rest = below;
+        }
+    }
     for field in fields(screen, sheet) {
         let (row, below) = split_top(rest, 1);
         put_field(&field, row, sheet);
+        rest = below;
+    }
+}
+
+/// What the watch has found wrong, with its time and bodies, as a band over the lowest rows of the body.
+pub(super) fn draw_alarm(screen: &Screen, body: Rect, sheet: &mut Sheet) {
+    let style = sheet.palette.alarm().patch(sheet.palette.reverse());
+    let sentences = screen.snapshot.alarm.sentences();
+    let width = body.width.saturating_sub(2);
+    let lines = sentences.iter().flat_map(|sentence| sheet::wrap(&format!("ALARM {sentence}"), width));
+    let lines: Vec<String> = lines.take(usize::from(body.height / 2)).collect();
+    let (_, mut rest) = split_top(body, body.height - lines.len() as u16);
+    for line in lines {
+        let (row, below) = split_top(rest, 1);
+        sheet.clear(row);
+        sheet.put(row, &" ".repeat(row.width.into()), style);
+        sheet.put(split_left(row, 1).1, &line, style);
         rest = below;
     }
 }

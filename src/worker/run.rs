@@ -13,6 +13,7 @@ use super::{
     pace::{Budget, Pace},
 };
 use crate::{
+    audit::Watch,
     measure,
     physics::{Class, Progress, Simulation, Stall, Until},
     snapshot::{Snapshot, Ticks},
@@ -50,6 +51,7 @@ pub(super) struct Runner {
     clock: Instant,
     job: Job,
     simulation: Simulation,
+    watch: Watch,
     snapshot: Arc<Snapshot>,
     ticks: Ticks,
     goal: Goal,
@@ -76,6 +78,7 @@ impl Runner {
             snapshot: Arc::new(Snapshot::of(&job.stage, &simulation, None)),
             ticks: Ticks::new(job.stage.duration),
             job,
+            watch: Watch::new(&simulation),
             simulation,
             goal: Goal::Nowhere,
             stall: None,
@@ -184,6 +187,7 @@ impl Runner {
     fn restart(&mut self, settings: crate::scene::Settings) {
         self.job.settings = settings;
         self.simulation = begin(&self.job);
+        self.watch = Watch::new(&self.simulation);
         self.ticks = Ticks::new(self.job.stage.duration);
         self.stall = None;
         self.cpu = 0.0;
@@ -213,6 +217,7 @@ impl Runner {
     fn advance(&mut self, until: Until) {
         let before = self.now();
         let progress = self.simulation.advance(until, self.budget.work());
+        self.watch.look(&self.simulation, false);
         self.moved = true;
         self.unreported = true;
         for event in self.simulation.take_events() {
@@ -247,7 +252,9 @@ impl Runner {
     /// The run as it stands.
     pub(super) fn report(&mut self) -> Report {
         if self.moved {
-            self.snapshot = Arc::new(Snapshot::of(&self.job.stage, &self.simulation, self.stall.as_ref()));
+            self.watch.look(&self.simulation, true);
+            let snapshot = Snapshot::of(&self.job.stage, &self.simulation, self.stall.as_ref());
+            self.snapshot = Arc::new(Snapshot { alarm: *self.watch.alarm(), ..snapshot });
         }
         self.moved = false;
         self.unreported = false;

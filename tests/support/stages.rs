@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use carom::{
     geometry::{Bounds, Parallelogram},
-    snapshot::{Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
+    snapshot::{Alarm, Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
     view::{Beside, Look, Mode, Pace, Popup, Screen},
 };
 use glam::{DVec3, dvec3};
@@ -95,6 +95,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         dt: 0.01,
         tolerance: 0.001,
         stall: None,
+        alarm: Alarm::default(),
     };
     let ticks = Ticks { span: 20.0, impacts: vec![0; 80] };
     let pace = Pace { mode: Mode::Pause, wanted: 1.0, reached: None };

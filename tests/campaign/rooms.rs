@@ -1,4 +1,4 @@
-//! The scenes of the campaign: rooms with free-standing walls and a few spheres. A seed means the same scene for ever.
+//! Rooms with free-standing walls and a few spheres.
 
 use carom::physics::contact_time::touch;
 use carom::physics::{Model, Scene};
@@ -8,7 +8,7 @@ use glam::{DVec3, dvec3};
 use crate::random::Random;
 use crate::support::{room, scene, wall};
 
-fn law(random: &mut Random) -> ContactLaw {
+pub(crate) fn law(random: &mut Random) -> ContactLaw {
     let mut restitution = || match random.pick(&[0, 1, 2, 2, 2, 3]) {
         0 => 0.0,
         1 => 1.0,
@@ -49,7 +49,7 @@ fn obstacles(random: &mut Random) -> Vec<Wall> {
 }
 
 /// The scene of this seed.
-pub(crate) fn random_scene(seed: u64) -> Scene {
+pub(crate) fn room_scene(seed: u64) -> Scene {
     let random = &mut Random(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ 0x1405_7b7e_f767_814f);
     let mut walls = room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 10.0, 5.0));
     walls.extend(obstacles(random));

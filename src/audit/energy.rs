@@ -1,0 +1,72 @@
+//! Energy never rises: all restitutions are at most 1, walls stand still, and forces are constant.
+
+use glam::DVec3;
+
+use crate::physics::{Model, State};
+
+use super::finding::{Bodies, Fault, Findings};
+
+/// Ulps of the energy's terms that a run may gain at first; each impact may add one.
+const ULPS: f64 = 4096.0;
+
+/// Share of the energy's terms that the motion of one frame may lose: curved rest is integrated to some digits less.
+const MOTION: f64 = 1e-11;
+
+/// The least energy seen.
+#[derive(Debug, Clone)]
+pub(super) struct Energy {
+    least: f64,
+    last: f64,
+    /// Largest Σ of the energy's terms, each taken positive, J: what rounding is relative to.
+    size: f64,
+    impacts: u64,
+}
+
+impl Energy {
+    pub(super) fn new(model: &Model, state: &State) -> Energy {
+        let (least, size) = energy(model, state);
+        Energy { least, last: least, size, impacts: 0 }
+    }
+
+    /// By how much a state's energy is above the least seen, and what rounding allows, J; `impacts` since the last state.
+    pub(super) fn rise(&mut self, model: &Model, state: &State, impacts: u64) -> [f64; 2] {
+        let (now, size) = energy(model, state);
+        self.size = self.size.max(size);
+        self.impacts += impacts;
+        let rise = now - self.least;
+        self.last = now;
+        self.least = self.least.min(now);
+        let ulps = ULPS + self.impacts as f64 + model.len() as f64;
+        [rise, ulps * f64::EPSILON * self.size]
+    }
+
+    /// Judges a state; `explained` (J) is what impacts and rests may have taken since the last one, if that is known.
+    pub(super) fn look(
+        &mut self,
+        model: &Model,
+        state: &State,
+        impacts: u64,
+        explained: Option<f64>,
+        findings: &mut Findings,
+    ) {
+        let before = self.last;
+        let rise = self.rise(model, state, impacts);
+        findings.hold(Fault::Energy, state.t, Bodies::All, rise);
+        if let Some(explained) = explained {
+            let lost = [before - self.last - explained, MOTION * self.size];
+            findings.hold(Fault::Loss, state.t, Bodies::All, lost);
+        }
+    }
+}
+
+/// Σ ½ m v² − m a·x, J, and the same with every term positive. Products of m a and x reach as far as x is rounded: m a |x|.
+fn energy(model: &Model, state: &State) -> (f64, f64) {
+    let mut sum = (0.0, 0.0);
+    for (i, (x, v)) in state.x.iter().zip(&state.v).enumerate() {
+        let (m, a): (f64, DVec3) = (model.masses[i], model.acceleration(i));
+        let (kinetic, potential) = (0.5 * m * v.dot(*v), m * a.dot(*x));
+        sum.0 += kinetic - potential;
+        sum.1 += kinetic + m * a.length() * (x.length() + model.radii[i]);
+    }
+    sum
+}

@@ -1,0 +1,227 @@
+//! Velocities between two frames: flight and the frame's impacts, done again one by one, give the velocities at its end, as
+//! long as nothing rests; and bodies that touch no wall keep their momentum together, whatever happens between them.
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+
+use crate::physics::contact::Key;
+use crate::physics::{Class, Contact, Kind, Method, Model, State};
+
+use super::finding::{Bodies, Fault, Findings};
+use super::law::reduced_mass;
+use super::overlap::restitution;
+use super::promise::ULPS;
+
+/// Share of the speeds that rounding may leave unexplained: impacts of bodies of very different mass lose some digits.
+const ROUNDING: f64 = 1e-11;
+
+/// Height of a hop, in radii, below which event-driven methods let a row of bounces end in rest without telling each.
+const HOP: f64 = 1e-6;
+
+/// Who touches, and so may be held, stopped or released by what is no impact of the frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Freedom<'a> {
+    /// At the end of the frame before.
+    pub(super) before: &'a BTreeSet<Key>,
+    /// At the end of this one.
+    pub(super) after: &'a BTreeSet<Key>,
+    /// Contacts of the frame before, which `paper` answers now.
+    pub(super) answered: &'a [Contact],
+}
+
+/// What the judge knows of a sphere's velocity.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    v: DVec3,
+    t: f64,
+    /// Whether an impact of the frame has changed it.
+    struck: bool,
+}
+
+/// Velocities done again.
+#[derive(Debug, Clone)]
+pub(super) struct Replay {
+    known: Vec<Known>,
+    /// Fastest since the last impact, m/s: what rounding is relative to.
+    scale: Vec<f64>,
+}
+
+impl Replay {
+    pub(super) fn new(state: &State) -> Replay {
+        Replay { known: Vec::new(), scale: state.v.iter().map(|v| v.length()).collect() }
+    }
+
+    /// Judges the velocities at the ends of two frames, and the contacts between; the energy (J) that impacts and rests may
+    /// have taken, where the method answers contacts one by one.
+    pub(super) fn judge(
+        &mut self,
+        model: &Model,
+        method: Method,
+        [before, after]: [&State; 2],
+        (contacts, free): (&[Contact], Freedom),
+        findings: &mut Findings,
+    ) -> Option<f64> {
+        self.known.clear();
+        self.known.extend(before.v.iter().map(|&v| Known { v, t: before.t, struck: false }));
+        for (scale, (v, w)) in self.scale.iter_mut().zip(before.v.iter().zip(&after.v)) {
+            *scale = scale.max(v.length()).max(w.length());
+        }
+        let bound = free_spheres(model, free, contacts);
+        let one_by_one = matches!(method, Method::Exact | Method::Swept);
+        let mut taken = bound.slack;
+        if one_by_one {
+            for row in contacts.iter().filter(|row| row.class == Class::Collide) {
+                taken += self.strike(model, after, row, &bound, findings);
+            }
+            for i in (0..model.len()).filter(|&i| !bound.holds[i]) {
+                self.fly(model, i, after.t);
+                let off = (after.v[i] - self.known[i].v).length();
+                findings.hold(Fault::Velocity, after.t, Bodies::Sphere(i), [off, self.slack(model, after, i)]);
+            }
+        }
+        self.momentum(model, [before, after], &bound, findings);
+        for (scale, (known, v)) in self.scale.iter_mut().zip(self.known.iter().zip(&after.v)) {
+            if known.struck {
+                *scale = v.length();
+            }
+        }
+        one_by_one.then_some(taken)
+    }
+
+    /// Lets sphere `i` fly until `t` (s).
+    fn fly(&mut self, model: &Model, i: usize, t: f64) {
+        let known = &mut self.known[i];
+        known.v += model.acceleration(i) * (t - known.t);
+        known.t = t;
+    }
+
+    /// Does an impact again, from the velocities known; the energy that it takes, J.
+    fn strike(&mut self, model: &Model, after: &State, row: &Contact, bound: &Bound, findings: &mut Findings) -> f64 {
+        let pair = row.kind == Kind::Pair;
+        let (a, b, n) = (row.a, row.b, row.normal);
+        self.fly(model, a, row.time);
+        if pair {
+            self.fly(model, b, row.time);
+            let both = self.scale[a].max(self.scale[b]);
+            (self.scale[a], self.scale[b]) = (both, both);
+        }
+        let relative = self.known[a].v - if pair { self.known[b].v } else { DVec3::ZERO };
+        let v_n = relative.dot(n);
+        if !(bound.holds[a] || (pair && bound.holds[b])) {
+            let slack = self.slack(model, after, a) + if pair { self.slack(model, after, b) } else { 0.0 };
+            // of a slow approach a place rounded by some ulp is worth more: compared as squares
+            let worth = self.worth(model, after, a) + if pair { self.worth(model, after, b) } else { 0.0 };
+            let off = (v_n + row.approach_speed).abs();
+            let bound = slack.max(worth / (v_n.abs() + row.approach_speed.abs()));
+            findings.hold(Fault::Approach, row.time, row.into(), [off, bound]);
+        }
+        let e = restitution(model, row.kind);
+        let change = -(1.0 + e) * v_n;
+        let mut taken = 0.5 * reduced_mass(model, row) * (1.0 - e * e) * row.approach_speed * row.approach_speed;
+        self.known[a].struck = true;
+        if pair {
+            self.known[b].struck = true;
+            let impulse = n * (change * reduced_mass(model, row));
+            self.known[a].v += impulse / model.masses[a];
+            self.known[b].v -= impulse / model.masses[b];
+        } else {
+            let (across, keeps) = (relative - n * v_n, model.law.tangential);
+            // what rests also may strike with what its support has left of its velocity, or given it
+            let most = across.length().max(self.scale[a]);
+            let across_squared = if bound.holds[a] { most * most } else { across.length_squared() };
+            taken += 0.5 * model.masses[a] * (1.0 - keeps * keeps) * across_squared;
+            self.known[a].v += n * change + across * (keeps - 1.0);
+        }
+        taken
+    }
+
+    /// What rounding of a sphere's place is worth, m²/s²: 2 a · 64 ulp.
+    fn worth(&self, model: &Model, after: &State, i: usize) -> f64 {
+        2.0 * model.acceleration(i).length() * 4.0 * ULPS * (after.x[i].abs().max_element() + model.radii[i])
+    }
+
+    /// What may stay unexplained of a velocity, m/s: rounding of speeds and of the clock, for what has been struck what
+    /// rounding of its place is worth, and the slow approaches that the law stops without an impact.
+    fn slack(&self, model: &Model, after: &State, i: usize) -> f64 {
+        let pull = model.acceleration(i).length();
+        let flight = ROUNDING * self.scale[i] + ULPS * after.t.abs() * pull + 2.0 * model.law.rest_speed;
+        if self.known[i].struck { flight + self.worth(model, after, i).sqrt() } else { flight }
+    }
+
+    /// Bodies joined by contacts, none of them with a wall, keep their momentum but for what forces give.
+    fn momentum(&self, model: &Model, [before, after]: [&State; 2], bound: &Bound, findings: &mut Findings) {
+        let h = after.t - before.t;
+        let mut sums = vec![(DVec3::ZERO, 0.0, 0_usize); model.len()];
+        for i in 0..model.len() {
+            let m = model.masses[i];
+            let change = after.v[i] - before.v[i] - model.acceleration(i) * h;
+            let sum = &mut sums[bound.root(i)];
+            sum.0 += change * m;
+            sum.1 += m * (self.scale[i] * ROUNDING + ULPS * after.t.abs() * model.acceleration(i).length());
+            sum.2 += 1;
+        }
+        for (i, (change, slack, count)) in sums.into_iter().enumerate() {
+            if count > 1 && !bound.walled[i] {
+                findings.hold(Fault::Momentum, after.t, Bodies::Sphere(i), [change.length(), slack]);
+            }
+        }
+    }
+}
+
+/// What binds spheres in a frame.
+struct Bound {
+    /// Whether something that is no impact may have changed the velocity.
+    holds: Vec<bool>,
+    /// Who belongs together: another one of the group, or itself.
+    parent: Vec<usize>,
+    /// By the group's root, whether one of it touches a wall.
+    walled: Vec<bool>,
+    /// Energy that slow approaches and ends of bouncing may take without an impact, J.
+    slack: f64,
+}
+
+impl Bound {
+    fn root(&self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            i = self.parent[i];
+        }
+        i
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        let (low, high) = (a.min(b), a.max(b));
+        self.parent[high] = low;
+        self.walled[low] |= self.walled[high];
+    }
+}
+
+/// Who is bound by what touches, rests or collides in a frame.
+fn free_spheres(model: &Model, free: Freedom, contacts: &[Contact]) -> Bound {
+    let n = model.len();
+    let slow = 2.0 * model.law.rest_speed * model.law.rest_speed;
+    let slack = model.masses.iter().map(|m| m * slow).sum();
+    let mut bound = Bound { holds: vec![false; n], parent: (0..n).collect(), walled: vec![false; n], slack };
+    let mut held = Vec::new();
+    for &(kind, a, b) in free.before.iter().chain(free.after) {
+        held.push((kind, a, b));
+        let hop = |i: usize| HOP * model.masses[i] * model.acceleration(i).length() * model.radii[i];
+        bound.slack += hop(a) + if kind == Kind::Pair { hop(b) } else { 0.0 };
+        bound.holds[a] = true;
+        if kind == Kind::Pair {
+            bound.holds[b] = true;
+        }
+    }
+    let rows = contacts.iter().chain(free.answered).map(Contact::key);
+    for (kind, a, b) in held.into_iter().chain(rows) {
+        match kind {
+            Kind::Pair => bound.join(a, b),
+            Kind::Wall => {
+                let root = bound.root(a);
+                bound.walled[root] = true;
+            }
+        }
+    }
+    bound
+}

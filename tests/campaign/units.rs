@@ -1,0 +1,122 @@
+//! The same scene in other units of length and time: the same events, the trajectory scaled, to rounding. A twin whose
+//! places are off by some ulp says how fast rounding grows; what it does not survive itself is not asked of the scaled run.
+
+use carom::physics::{Contact, Progress, Scene, Simulation, Until};
+use carom::scene::{Sphere, Wall};
+use glam::DVec3;
+
+use crate::joints::joint_scene;
+use crate::judged::{EXACT, Failure, Met};
+use crate::random::Random;
+use crate::rooms::room_scene;
+
+/// Turns of the method's loop that each run may take.
+const BUDGET: u64 = 400_000;
+
+/// How much more than its twin the scaled run may be off: the twin's rounding is one of many.
+const MORE: f64 = 1e4;
+
+/// What every event may be off by, relative to sizes of some metres and seconds: a thousand ulp of a deviation that the
+/// twin does not have, since its places alone are off.
+const LEAST: f64 = 1e-11;
+
+/// A scene with lengths in units of `length` and times in units of `time`, places off by `off` of themselves.
+fn in_units(scene: &Scene, length: f64, time: f64, off: f64) -> Scene {
+    let (speed, pull) = (length / time, length / (time * time));
+    let wall = |wall: &Wall| {
+        let mut wall = wall.clone();
+        wall.shape.center *= length;
+        wall.shape.s1 *= length;
+        wall.shape.s2 *= length;
+        wall
+    };
+    let sphere = |s: &Sphere| Sphere {
+        x: s.x * (length * (1.0 + off)),
+        v: s.v * speed,
+        radius: s.radius * length,
+        force: s.force * pull,
+        ..s.clone()
+    };
+    let mut scaled = scene.clone();
+    scaled.gravity *= pull;
+    scaled.contact.rest_speed *= speed;
+    scaled.walls = scene.walls.iter().map(wall).collect();
+    scaled.spheres = scene.spheres.iter().map(sphere).collect();
+    scaled
+}
+
+/// The events of a run until `t` (s), and why it did not get there if it did not.
+fn events(scene: &Scene, dt: f64, t: f64) -> (Vec<Contact>, &'static str) {
+    let mut run = Simulation::new(scene, carom::physics::Settings { dt, ..EXACT });
+    run.record_events(true);
+    for _ in 0..BUDGET / 1000 {
+        match run.advance(Until::Time(t), 1000) {
+            Progress::Reached => return (run.take_events(), ""),
+            Progress::Yielded => {}
+            Progress::Stalled(stall) => return (run.take_events(), stall.kind),
+        }
+    }
+    (run.take_events(), "work")
+}
+
+/// How far two events are apart, lengths and times taken in these units; none if they are different ones.
+fn apart(one: &Contact, other: &Contact, length: f64, time: f64) -> Option<f64> {
+    let same = one.key() == other.key() && one.class == other.class;
+    let off = (one.point - other.point / length).length() + (one.time - other.time / time).abs();
+    let speeds = (one.approach_speed - other.approach_speed * time / length).abs();
+    same.then_some(off + speeds)
+}
+
+/// The scene of this seed: a room or a joint, away from places that many bodies share by symmetry.
+fn base(seed: u64, random: &mut Random) -> Scene {
+    let mut scene = if seed.is_multiple_of(2) { room_scene(seed / 2) } else { joint_scene(seed / 2) };
+    let nudge = |random: &mut Random| random.vector() * 1e-3;
+    let shift: DVec3 = nudge(random);
+    scene.spheres.iter_mut().for_each(|s| s.v += shift);
+    scene
+}
+
+/// Compares a scene with itself in other units.
+pub(crate) fn check(seed: u64, until: f64, met: &mut Met) -> Result<(), Failure> {
+    let random = &mut Random(seed.wrapping_mul(0xff51_afd7_ed55_8ccd) ^ 0x0101_2323_4545_6767);
+    let scene = base(seed, random);
+    let (length, time) = (random.decade(-3.0, 3.0), random.decade(-3.0, 3.0));
+    let (plain, end) = events(&scene, 0.5, until);
+    let (twin, twins) = events(&in_units(&scene, 1.0, 1.0, 4.0 * f64::EPSILON), 0.5, until);
+    let (scaled, other) = events(&in_units(&scene, length, time, 0.0), 0.5 * time, until * time);
+    met.impacts += plain.len() as u64;
+    let fail = |kind: &str, text: String| {
+        let text = format!("seed {seed}, {length:e} m and {time:e} s: {text}");
+        Err(Failure { kind: kind.into(), text })
+    };
+    let mut grown = 0.0_f64;
+    for (k, event) in plain.iter().enumerate() {
+        let Some(off) = twin.get(k).and_then(|it| apart(event, it, 1.0, 1.0)) else { return Ok(()) };
+        grown = grown.max(off);
+        if grown > 1e-7 {
+            return Ok(()); // growth has made the rest moot
+        }
+        let allowed = MORE * grown + LEAST;
+        let Some(it) = scaled.get(k) else {
+            return fail("missing", format!("{event:?} does not happen ({other:?}, plain {end:?})"));
+        };
+        match apart(event, it, length, time) {
+            Some(off) if off <= allowed => {}
+            Some(off) => {
+                return fail("deviates", format!("event {k} is off by {off:e}, its twin by {grown:e}: {event:?}"));
+            }
+            // of events at one time, rounding may choose the first
+            None if is_tied(&plain, k, allowed) => return Ok(()),
+            None => return fail("differs", format!("event {k}: {event:?} became {it:?}")),
+        }
+    }
+    if end != other && end == twins {
+        return fail("ends", format!("{end:?} became {other:?} after {} events", plain.len()));
+    }
+    Ok(())
+}
+
+fn is_tied(events: &[Contact], k: usize, allowed: f64) -> bool {
+    let near = |j: usize| events.get(j).is_some_and(|other| (other.time - events[k].time).abs() <= allowed);
+    near(k + 1) || (k > 0 && near(k - 1))
+}
