@@ -286,18 +286,21 @@ fn stacks_in_tubes_of_doubled_walls_are_held() {
 /// Spheres in a square lattice, all neighbours touching, between four walls and on a floor: held many times over.
 fn packed(random: &mut Random) -> Problem {
     let side = 2 + (random.unit() * 3.0) as usize;
+    let scatter = if random.unit() < 0.5 { 0.0 } else { random.decade(-17.0, -6.0) };
     let mut rows = Vec::new();
-    let mut row = |a: usize, b: Option<usize>, normal: DVec3| rows.push(Row { a, b, normal, offset: 0.0 });
+    let mut row = |random: &mut Random, a: usize, b: Option<usize>, normal: DVec3| {
+        rows.push(Row { a, b, normal: (normal + random.vector() * scatter).normalize(), offset: 0.0 });
+    };
     for a in 0..side * side {
         let (i, j) = (a % side, a / side);
-        row(a, None, DVec3::Z);
-        row(a, if i > 0 { Some(a - 1) } else { None }, DVec3::X);
-        row(a, if j > 0 { Some(a - side) } else { None }, DVec3::Y);
+        row(random, a, None, DVec3::Z);
+        row(random, a, if i > 0 { Some(a - 1) } else { None }, DVec3::X);
+        row(random, a, if j > 0 { Some(a - side) } else { None }, DVec3::Y);
         if i + 1 == side {
-            row(a, None, DVec3::NEG_X);
+            row(random, a, None, DVec3::NEG_X);
         }
         if j + 1 == side {
-            row(a, None, DVec3::NEG_Y);
+            row(random, a, None, DVec3::NEG_Y);
         }
     }
     let inverse_mass = (0..side * side).map(|_| random.decade(-1.0, 1.0)).collect();
