@@ -29,9 +29,8 @@ impl<D: Detector> Exact<D> {
             return false;
         }
         let record = &self.flight.records[self.flight.seat(meeting.key.1)];
-        let keys: Vec<Key> = (self.walls_touched(model, record).into_iter())
-            .map(|wall| (Kind::Wall, meeting.key.1, wall))
-            .collect();
+        let keys: Vec<Key> =
+            (self.walls_touched(model, record).into_iter()).map(|wall| (Kind::Wall, meeting.key.1, wall)).collect();
         let squeezing = self.squeezing(model, &keys);
         if !squeezing.contains(&meeting.key) {
             return false;

@@ -134,9 +134,14 @@ impl ActiveSet<'_> {
         if let Append::Dependent(weights) = self.append(row, self.dependent) {
             let slack = 1.0 + weights.iter().map(|weight| weight.abs()).sum::<f64>();
             let rounding = ROUNDING * self.problem.size(row) / self.lengths[row] * slack;
+            let size = self.holding.len();
             if self.opening(row, &self.u) >= -rounding || !self.replace(row, &weights) {
                 self.refused[row] = true;
                 self.slack[row] = slack;
+                // one has left, and none has come in its place: the loads are for the others
+                if self.holding.len() < size {
+                    self.settle();
+                }
                 return;
             }
         }

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::gauss_seidel;
-use super::problem::{LocalRow, Problem};
 use super::active_set::{self, DEPENDENT};
 use super::enumerate;
+use super::gauss_seidel;
+use super::problem::{LocalRow, Problem};
 
 /// SplitMix64 mapped to [−1, 1), the seed first.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
