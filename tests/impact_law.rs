@@ -119,8 +119,10 @@ fn row(e: f64, gaps: &[f64], speeds: &[f64], masses: &[f64]) -> (Scene, Row) {
 }
 
 /// That a method does what the law does one by one, until `until`, s.
-fn assert_as_by_the_law(case: (Scene, Row), until: f64, method: Method, tolerance: f64) {
+fn assert_as_by_the_law(case: (Scene, Row), until: f64, method: Method, growth: f64) {
     let (scene, row) = (case.0, case.1.run(until));
+    // Each impact rounds the speeds, and what it rounds grows with the impacts that follow.
+    let tolerance = 4.0 * EPS * row.impacts as f64 * growth;
     let mut run = start(&scene, method);
     let state = go(&mut run, until);
     let what = format!("{method:?}, e = {}, masses {:?}", row.e, row.masses);
@@ -134,7 +136,12 @@ fn assert_as_by_the_law(case: (Scene, Row), until: f64, method: Method, toleranc
             row.impacts
         );
     }
-    assert_eq!((run.tallies().impacts, run.tallies().collapses), (row.impacts, 0), "{what}");
+    assert_eq!((impacts_by(&mut run, until), run.tallies().collapses), (row.impacts, 0), "{what}");
+}
+
+/// Impacts until a time, s: the last frame goes on to what comes after it.
+fn impacts_by(run: &mut Simulation, until: f64) -> u64 {
+    run.take_events().iter().filter(|row| row.class == Class::Collide && row.time <= until).count() as u64
 }
 
 #[test]
@@ -152,9 +159,9 @@ fn a_light_ball_between_a_wall_and_a_heavy_one_sends_it_back_whatever_the_restit
     for (mass, restitutions) in cases {
         for (&e, gap) in restitutions.iter().flat_map(|e| [(e, 0.0), (e, 1.0)]) {
             let case = row(e, &[0.0, gap, f64::INFINITY], &[0.0, -1.0], &[1.0, mass]);
-            // Each of up to 10⁵ impacts rounds both speeds, and by the last of them what the first have changed has
-            // turned by half a circle and no more: the errors add, and grow as √(M/m) as they pass to the light ball.
-            assert_as_by_the_law(case, 6.0, Method::Exact, 1e-10);
+            // By the last impact what the first have changed has turned by half a circle and no more, in the plane of
+            // √M V and √m v: an error of the heavy ball's speed is √(M/m) times as large as one of the light ball's.
+            assert_as_by_the_law(case, 6.0, Method::Exact, mass.sqrt());
         }
     }
 }
@@ -163,8 +170,8 @@ fn a_light_ball_between_a_wall_and_a_heavy_one_sends_it_back_whatever_the_restit
 fn a_heavy_ball_is_turned_round_by_light_ones_at_two_walls() {
     for (mass, e) in [(1e3, 0.999), (1e4, 0.9999), (1e5, 1.0)] {
         let case = row(e, &[0.25, 1.0, 0.5, 0.0], &[0.0, -1.0, 0.0], &[1.0, mass, 2.0]);
-        // The light balls rattle on: each impact doubles or so what the ones before have misplaced, over a few turns.
-        assert_as_by_the_law(case, 3.0, Method::Exact, 1e-7);
+        // As in the test before, and once more for the second wall.
+        assert_as_by_the_law(case, 3.0, Method::Exact, mass);
     }
 }
 
@@ -172,7 +179,7 @@ fn a_heavy_ball_is_turned_round_by_light_ones_at_two_walls() {
 fn swept_sends_the_heavy_ball_back_too() {
     for (mass, e) in [(1e6, 1.0), (1e7, 0.99999)] {
         let case = row(e, &[0.0, 0.0, f64::INFINITY], &[0.0, -1.0], &[1.0, mass]);
-        assert_as_by_the_law(case, 4.0, Method::Swept, 1e-10);
+        assert_as_by_the_law(case, 4.0, Method::Swept, mass.sqrt());
     }
 }
 
@@ -267,8 +274,8 @@ impl Thrown {
         scene(G, law, vec![tilted], vec![sphere(out * (0.5 + self.height), down * self.along, 0.5)])
     }
 
-    /// When the bounces end (s), how far down the wall (m), and how fast (m/s), bounce by bounce.
-    fn end(&self) -> (f64, f64, f64) {
+    /// When the bounces end (s) and how far down the wall (m), bounce by bounce. Infinitely many leave no speed along it.
+    fn end(&self) -> (f64, f64) {
         let (pull, press) = (9.8 * self.slope[0], 9.8 * self.slope[1]);
         let mut flight = (2.0 * self.height / press).sqrt();
         let mut speed = press * flight;
@@ -280,7 +287,7 @@ impl Thrown {
             speed *= self.e;
             flight = 2.0 * speed / press;
         }
-        (time, way, along)
+        (time, way)
     }
 }
 
@@ -292,19 +299,25 @@ fn bounces_that_rub_end_where_their_series_does() {
     for (e, tangential) in [(1e-4, 0.99), (0.1, 0.9), (0.5, 0.99), (0.5, 0.3), (0.8, 0.0), (0.9, 0.999), (0.98, 0.5)] {
         for (slope, along) in [(level, 0.3), (tilted, 0.3), (tilted, 0.0), (tilted, -2.0)] {
             let thrown = Thrown { e, tangential, slope, height: 2.5, along };
-            let (time, way, speed) = thrown.end();
+            let (time, way) = thrown.end();
             let mut run = start(&thrown.scene(), Method::Exact);
             let after = 0.5;
             let state = go(&mut run, time + after);
             // then it slides down without friction: a rest does not rub
             let pull = 9.8 * slope[0];
             let down = dvec3(slope[1], -slope[0], 0.0);
-            let (x, v) = (way + speed * after + 0.5 * pull * after * after, speed + pull * after);
+            let (x, v) = (way + 0.5 * pull * after * after, pull * after);
             let what = format!("e = {e}, tangential {tangential}, slope {slope:?}, {along} m/s");
             let (found_x, found_v) = (state.x[0].dot(down), state.v[0].dot(down));
-            // Demanded of the sum: 1e-12 of the way and of the time, over which the speed along it, 20 m/s at most, acts.
-            assert!((found_x - x).abs() <= 1e-11, "{what}: {found_x} m instead of {x} m, off by {:e}", found_x - x);
-            assert!((found_v - v).abs() <= 1e-11, "{what}: {found_v} m/s instead of {v} m/s, off by {:e}", found_v - v);
+            // The distance from a tilted wall is known to an ulp of 2 m or so, 1e-3 of the hops of 1e-12 r from which on
+            // the sum is taken: so are their times, of 1e-6 s. Those of a level one are exact.
+            let tolerance = if slope == level { 1e-12 } else { 1e-9 };
+            assert!((found_x - x).abs() <= tolerance, "{what}: {found_x} m instead of {x} m, off by {:e}", found_x - x);
+            assert!(
+                (found_v - v).abs() <= tolerance,
+                "{what}: {found_v} m/s instead of {v} m/s, off by {:e}",
+                found_v - v
+            );
             let rests = run.take_events().into_iter().filter(|row| row.class == Class::Rest).count();
             assert_eq!(rests, 1, "{what}");
         }
@@ -315,7 +328,7 @@ fn bounces_that_rub_end_where_their_series_does() {
 fn swept_rubs_as_many_bounces_as_it_does_not_see() {
     // Hops lower than its tolerance stay hidden in the overlap; the law's limit is still that nothing slides.
     let thrown = Thrown { e: 0.5, tangential: 0.99, slope: [0.0, 1.0], height: 2.5, along: 0.3 };
-    let (time, way, _) = thrown.end();
+    let (time, way) = thrown.end();
     let mut run = start(&thrown.scene(), Method::Swept);
     let state = go(&mut run, time + 1.0);
     // First order in the tolerance: an impact may come 1e-3 · 0.5 m / 7 m/s early, a hop of that height, 0.02 s long,
@@ -361,11 +374,12 @@ fn units_of_length_and_time_that_are_powers_of_two_change_no_bit() {
         for method in [Method::Exact, Method::Swept] {
             let mut run = start(&scene, method);
             let state = go(&mut run, until);
+            let impacts = impacts_by(&mut run, until);
             for (length, time) in [(2_f64.powi(-10), 1.0), (1.0, 2_f64.powi(-12)), (2_f64.powi(20), 2_f64.powi(12))] {
                 let mut other = start(&in_units(&scene, length, time), method);
                 let found = go(&mut other, until * time);
                 let what = format!("scene {index}, {method:?}, {length} m, {time} s");
-                assert_eq!(other.tallies().impacts, run.tallies().impacts, "{what}");
+                assert_eq!(impacts_by(&mut other, until * time), impacts, "{what}");
                 for i in 0..state.x.len() {
                     assert_eq!(found.x[i], state.x[i] * length, "{what}: place of {i}");
                     assert_eq!(found.v[i], state.v[i] * (length / time), "{what}: velocity of {i}");
@@ -382,10 +396,10 @@ fn kilometres_and_hours_change_no_more_than_rounding() {
         for (length, time) in [(1e-3, 1.0 / 3600.0), (1e9, 1.0), (1.0, 1e-9), (1e-9, 1e6)] {
             let found = go(&mut start(&in_units(&scene, length, time), Method::Exact), until * time);
             for i in 0..state.x.len() {
-                // The input itself is rounded; chains of some hundred impacts and a rim enlarge that a thousandfold or so.
+                // The input itself is rounded; chains, a rim, and low hops over a tilted wall enlarge that a millionfold or so.
                 let (x, v) = (found.x[i] / length - state.x[i], (found.v[i] / (length / time)) - state.v[i]);
                 assert!(
-                    x.length() <= 1e-10 && v.length() <= 1e-10,
+                    x.length() <= 2e-9 && v.length() <= 2e-9,
                     "scene {index}, {length} m, {time} s: off by {x} m, {v} m/s"
                 );
             }

@@ -71,7 +71,7 @@ impl Row {
 
 impl<D: Detector> Exact<D> {
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
-    /// bodies last changed. What happens at one instant is a chain of impacts and no row of bounces.
+    /// bodies last changed. A chain of impacts at one instant alone is no such row: nothing has fed it.
     pub(super) fn chatters(&mut self, model: &Model, meeting: &Meeting, since: f64) -> bool {
         let pull = self.pull(model, meeting.key);
         if pull == 0.0 || model.law == LOSSLESS {
@@ -90,12 +90,10 @@ impl<D: Detector> Exact<D> {
         }
         let row = self.chatter.entry(meeting.key).or_insert(Row::new(now, approach_speed));
         row.given += (1.0 + keeps) * approach_speed;
-        if now > row.last || row.count == 0 {
-            row.count = row.count.saturating_add(1);
-            row.tiny = if way <= (SMALL_HOP * meeting.reach).max(rounding) { row.tiny + 1 } else { 0 };
-            row.last = now;
-            row.due *= keeps.sqrt();
-        }
+        row.count = row.count.saturating_add(1);
+        row.tiny = if way <= (SMALL_HOP * meeting.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
+        row.last = now;
+        row.due *= keeps.sqrt();
         row.is_endless(approach_speed, keeps) && row.is_fed(pull)
     }
 

@@ -32,7 +32,7 @@ impl<D: Detector> Exact<D> {
             log.tallies.collapses += 1;
             return Class::Rest;
         }
-        if class == Class::Collide && restitution < 1.0 && self.instant.collapses(meeting.key, -meeting.v_n) {
+        if class == Class::Collide && restitution < 1.0 && self.collapses(meeting) {
             log.tallies.collapses += 1;
             return Class::Rest;
         }

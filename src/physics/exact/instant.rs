@@ -34,8 +34,8 @@ const STRETCH: u64 = 20 * MOST_AT_ONCE;
 /// Share of the time scale of its fastest sphere below which a run's clock counts as at its zero: 2⁻⁸.
 const BEGINNING: f64 = 1.0 / 256.0;
 
-/// Below this share of the fastest approach of a chain, an approach is rounding.
-const ROUNDING: f64 = f64::EPSILON;
+/// Below this share of the fastest approach of a chain, or of the speeds of its bodies, an approach is rounding: 8 ulp.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Approaches below this share of the speeds of their bodies are rounding: 64 ulp.
 const LOST: f64 = 64.0 * f64::EPSILON;
@@ -48,7 +48,7 @@ pub(super) struct Instant {
     spent: u64,
     stretch: u64,
     since: f64,
-    /// The fastest approach of each contact in a long chain, m/s.
+    /// The fastest that the bodies of each contact in a long chain have been, or approached, m/s.
     fastest: BTreeMap<Key, f64>,
     /// How often each contact has opened.
     releases: BTreeMap<Key, u32>,
@@ -60,13 +60,13 @@ impl Instant {
         self.fastest.get(&key).is_some_and(|&fastest| approach_speed <= ROUNDING * fastest)
     }
 
-    /// The same of a contact that is about to collide once more.
-    pub(super) fn collapses(&mut self, key: Key, approach_speed: f64) -> bool {
+    /// The same of a contact that is about to collide once more, whose bodies have these speeds in all, m/s.
+    fn collapses(&mut self, key: Key, approach_speed: f64, speeds: f64) -> bool {
         if self.events <= LONG_CHAIN {
             return false;
         }
         let fastest = self.fastest.entry(key).or_default();
-        *fastest = fastest.max(approach_speed);
+        *fastest = fastest.max(approach_speed).max(speeds);
         self.has_collapsed(key, approach_speed)
     }
 
@@ -139,15 +139,23 @@ impl<D: Detector> Exact<D> {
         t.next_up() - t
     }
 
+    /// Whether a contact that is about to collide once more at this instant has collapsed.
+    pub(super) fn collapses(&mut self, meeting: &Meeting) -> bool {
+        let speeds = self.speeds(meeting.key);
+        self.instant.collapses(meeting.key, -meeting.v_n, speeds)
+    }
+
     /// Tells an impact in a long chain from a loop of rounding.
     pub(super) fn count_impact(&mut self, meeting: &Meeting) {
-        if self.instant.events <= LONG_CHAIN && self.instant.stretch < MOST_AT_ONCE {
-            return;
-        }
-        let (kind, a, b) = meeting.key;
-        let other = if kind == Kind::Pair { self.flight.line(b).v.length() } else { 0.0 };
-        if -meeting.v_n > LOST * (self.flight.line(a).v.length() + other) {
+        let long = self.instant.events > LONG_CHAIN || self.instant.stretch >= MOST_AT_ONCE;
+        if long && -meeting.v_n > LOST * self.speeds(meeting.key) {
             self.instant.count_impact();
         }
+    }
+
+    /// The speeds of the bodies of a contact in all, m/s.
+    fn speeds(&self, (kind, a, b): Key) -> f64 {
+        let other = if kind == Kind::Pair { self.flight.line(b).v.length() } else { 0.0 };
+        self.flight.line(a).v.length() + other
     }
 }
