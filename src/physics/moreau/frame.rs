@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::super::contact::Key;
 use super::super::log::Log;
 use super::super::motion::{Flight, with_flight};
-use super::super::{Class, Contact, Kind, Model, Stall, motion, overlap};
+use super::super::{Class, Contact, Kind, Model, Stall, contact_time, motion, overlap};
 use super::Moreau;
 use super::meeting::{Allowance, Path, Row, Speeds, TOUCHING, Terms};
 
@@ -240,13 +240,44 @@ impl Moreau {
         self.end.x.clear();
         self.end.x.extend(self.start.x.iter().zip(&self.solution).map(|(x, u)| *x + *u * h));
         self.step = h;
-        self.carried.clear();
-        self.carried.extend(self.rows.iter().filter(|row| row.impulse > 0.0).map(|row| (row.key, row.impulse)));
+        self.carry(model);
         log.tallies.frames += 1;
         log.tallies.relaxations += self.solver.solved;
         log.tallies.unconverged += u64::from(!converged);
         self.tell(model, log);
         Ok(())
+    }
+
+    /// What held in this frame, for the next one.
+    fn carry(&mut self, model: &Model) {
+        self.carried.clear();
+        for row in self.rows.iter().filter(|row| row.impulse > 0.0) {
+            self.carried.push((self.carrier(model, row), row.impulse));
+        }
+        self.carried.sort_unstable_by_key(|held| held.0);
+        self.carried.dedup_by(|next, held| {
+            let same = next.0 == held.0;
+            held.1 += if same { next.1 } else { 0.0 };
+            same
+        });
+    }
+
+    /// What bears a row's impulse at the end of the frame: a sphere may have come from its wall on to another one that
+    /// lies level with it, which it has not struck.
+    fn carrier(&self, model: &Model, row: &Row) -> Key {
+        let (kind, a, b) = row.key;
+        let (x, r) = (self.end.x[a], model.radii[a]);
+        if kind == Kind::Pair || row.is_level_with(&contact_time::touch(&model.faces[b], x, r)) {
+            return row.key;
+        }
+        let allowed = row.slack * self.settings.dt + overlap::touching(r, x.abs().max_element());
+        let found = &self.search.found;
+        let walls = found[found.partition_point(|key| *key < (kind, a, 0))..].iter();
+        let bears = |key: &&Key| {
+            let touch = contact_time::touch(&model.faces[key.2], x, r);
+            touch.gap <= allowed && row.is_level_with(&touch)
+        };
+        walls.take_while(|key| key.0 == kind && key.1 == a).find(bears).copied().unwrap_or(row.key)
     }
 
     /// Stops spheres that would pass into walls deeper than the tolerance allows, for this frame.

@@ -297,6 +297,11 @@ impl Row {
         one_point && if self.face == other.face { self.key < other.key } else { self.face }
     }
 
+    /// Whether a touch has the same normal.
+    pub(super) fn is_level_with(&self, touch: &contact_time::Touch) -> bool {
+        (self.normal - touch.normal).length_squared() <= ONE_POINT
+    }
+
     /// Whether it comes before `best`: what is met earlier, of these what holds.
     pub(super) fn comes_before(&self, best: &Row) -> bool {
         self.time < best.time || (self.time == best.time && self.holds() && !best.holds())
