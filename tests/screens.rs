@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use carom::audit::{Bodies, Fault, Finding};
 use carom::{
     physics::Simulation,
     scene,
@@ -17,6 +16,8 @@ use ratatui::{
     style::Color,
 };
 
+#[path = "screens/alarm.rs"]
+mod alarm;
 #[path = "screens/comparison.rs"]
 mod comparison;
 #[path = "support/stages.rs"]
@@ -450,26 +451,6 @@ fn a_stall_says_why_at_every_size_with_a_picture() {
         let words: Vec<&str> = frame.split_whitespace().collect();
         assert!(frame.contains("STALL") && words.contains(&"bisection"), "{width}x{height}:\n{frame}");
     }
-}
-
-#[test]
-fn an_alarm_says_what_when_and_which_bodies_at_every_size() {
-    let mut scene = stages::wedge();
-    scene.snapshot.alarm.overlap = Some(Finding {
-        fault: Fault::Overlap,
-        time: 1.25,
-        bodies: Bodies::Wall(0, 6),
-        value: 0.318,
-        bound: 1e-9,
-        times: 3,
-    });
-    for (width, height) in [(30, 8), (40, 12), (60, 16), (80, 24), (120, 40), (200, 60)] {
-        let frame = text(&scene, width, height);
-        let words: Vec<&str> = frame.split_whitespace().collect();
-        assert!(words.contains(&"ALARM") && words.contains(&"1.25"), "{width}x{height}:\n{frame}");
-        assert!(frame.contains("wall") && words.contains(&"overlap"), "{width}x{height}:\n{frame}");
-    }
-    assert!(!text(&stages::wedge(), 80, 24).contains("ALARM"));
 }
 
 #[test]

@@ -117,7 +117,9 @@ impl Replay {
             findings.hold(Fault::Approach, row.time, row.into(), [off, bound]);
         }
         let e = restitution(model, row.kind);
-        let change = -(1.0 + e) * v_n;
+        // of what something else holds the velocity is not known, but what the contact told is
+        let known = !(bound.holds[a] || (pair && bound.holds[b]));
+        let change = (1.0 + e) * if known { -v_n } else { row.approach_speed };
         let mut taken = 0.5 * reduced_mass(model, row) * (1.0 - e * e) * row.approach_speed * row.approach_speed;
         self.known[a].struck = true;
         if pair {
