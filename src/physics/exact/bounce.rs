@@ -111,7 +111,7 @@ impl<D: Detector> Exact<D> {
         }
         let bounces = self.bounces(model, meeting);
         let ending = bounces.ending(model.law.rest_speed / -meeting.v_n);
-        let share = if meeting.flat && self.rests.count(a) == 0 { bounces.share_of_pull() } else { 1.0 };
+        let share = if meeting.flat { bounces.share_of_pull() } else { 1.0 };
         let change = bounces.pull * (share * ending.after);
         let mean = ending.way / ending.after - change * 0.5;
         if !mean.is_finite() {
@@ -129,7 +129,8 @@ impl<D: Detector> Exact<D> {
     /// Whether an impact on a wall that rubs, no rounding itself, is followed by bounces that only sums tell apart.
     fn leaves_a_series(&self, model: &Model, meeting: &Meeting) -> bool {
         let (law, e) = (&model.law, model.law.wall_restitution);
-        let series = meeting.key.0 == Kind::Wall && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
+        let free = meeting.key.0 == Kind::Wall && self.rests.count(meeting.key.1) == 0;
+        let series = free && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
         let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
         series && e * -meeting.v_n > law.rest_speed && e * e * hop <= Self::small_hop(meeting) && self.hops(meeting)
     }

@@ -3,6 +3,7 @@
 
 use super::Exact;
 use super::impact::{HOP, Meeting, ZENO};
+use super::rest::closed_speed;
 use crate::physics::contact::Key;
 use crate::physics::contact_time::touch;
 use crate::physics::detector::Detector;
@@ -12,6 +13,9 @@ use crate::physics::{Class, Kind, Model};
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 pub(super) const SMALL_HOP: f64 = 1e-12;
+
+/// Cosine of the angle between two walls up to which an impulse off the one is mostly one off the other: 45°.
+const LEVEL: f64 = 0.7;
 
 impl<D: Detector> Exact<D> {
     /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
@@ -28,6 +32,9 @@ impl<D: Detector> Exact<D> {
             return Class::Rest;
         }
         let class = classify(meeting.v_n, pressed, &model.law);
+        if class == Class::Collide && self.is_held_down(model, meeting) {
+            return Class::Rest;
+        }
         if class == Class::Collide && self.chatters(model, meeting, since) {
             log.tallies.collapses += 1;
             return Class::Rest;
@@ -37,6 +44,22 @@ impl<D: Detector> Exact<D> {
             return Class::Rest;
         }
         class
+    }
+
+    /// Whether an impact on a wall would lift the sphere off another one that it rests on, nearly level with this one, by
+    /// no more than counts as closed there: that rest would take the impulse back, and the same impact would come again.
+    fn is_held_down(&self, model: &Model, meeting: &Meeting) -> bool {
+        let (kind, i, wall) = meeting.key;
+        if kind == Kind::Pair || self.rests.count(i) == 0 {
+            return false;
+        }
+        let kick = (1.0 + model.law.wall_restitution) * -meeting.v_n;
+        let body = self.body(model, i);
+        let level = |&(kind, _, other): &Key| {
+            let cosine = || touch(&model.faces[other], body.x, body.r).normal.dot(meeting.normal);
+            kind == Kind::Wall && other != wall && cosine() >= LEVEL
+        };
+        kick <= closed_speed(&body, ZENO * self.tick()) && self.rests.of(i).iter().any(level)
     }
 
     /// Whether bodies pressed together would be apart for no longer than the clock can tell.

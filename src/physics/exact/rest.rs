@@ -52,11 +52,8 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     for (place, &body) in stopped.bodies.iter().enumerate() {
         bodies[body].v = stopped.vectors[place];
     }
-    let rounding = |body: usize| {
-        let (pull, size) = (applied[body].length(), bodies[body].x.abs().max_element() + bodies[body].r);
-        tick * pull + ROUNDING * velocity[body].length() + (2.0 * pull * HOP * size).sqrt()
-    };
-    let slack: Vec<f64> = (0..bodies.len()).map(rounding).collect();
+    let slack: Vec<f64> =
+        bodies.iter().zip(&velocity).map(|(body, &v)| closed_speed(&Body { v, ..*body }, tick)).collect();
     let opens = |contact: &Resting| {
         let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
@@ -88,6 +85,13 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     settled.stop(bodies, tick);
     settled.let_go(bodies, &resting);
     settled
+}
+
+/// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
+/// (`tick`, s) or the coordinates can tell.
+pub(super) fn closed_speed(body: &Body, tick: f64) -> f64 {
+    let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
+    tick * pull + ROUNDING * body.v.length() + (2.0 * pull * HOP * size).sqrt()
 }
 
 /// u of the first body less u of the second.

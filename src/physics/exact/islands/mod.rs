@@ -173,6 +173,11 @@ impl Rests {
         !self.of.is_empty() && !self.of[key.1].is_empty() && self.held.contains_key(&key)
     }
 
+    /// The contacts of sphere `i` that rest.
+    pub(super) fn of(&self, i: usize) -> &[Key] {
+        self.of.get(i).map_or(&[], Vec::as_slice)
+    }
+
     /// How many contacts of sphere `i` rest.
     pub(super) fn count(&self, i: usize) -> usize {
         self.of.get(i).map_or(0, Vec::len)

@@ -271,15 +271,19 @@ impl<D: Detector> Exact<D> {
             Contact { a: place(a), other }
         };
         let contacts = keys.iter().map(contact).collect();
-        let body = |&i: &usize| Body {
+        let bodies = spheres.iter().map(|&i| self.body(model, i)).collect();
+        (spheres, bodies, contacts)
+    }
+
+    /// Sphere `i`, whose line is at the present, as a body of an island.
+    pub(in crate::physics::exact) fn body(&self, model: &Model, i: usize) -> Body {
+        Body {
             x: self.flight.line(i).x,
             v: self.flight.line(i).v,
             applied: model.acceleration(i),
             inverse_mass: model.inverse_masses[i],
             r: model.radii[i],
-        };
-        let bodies = spheres.iter().map(body).collect();
-        (spheres, bodies, contacts)
+        }
     }
 
     /// Writes a `rest` row for every contact that begins to carry a load.
