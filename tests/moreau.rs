@@ -329,7 +329,7 @@ fn a_frame_in_which_everything_may_meet_is_refused_by_count_and_names_dt() {
     };
     let (stall, evaluations) = stalled(u64::MAX);
     assert_eq!((stall.kind, stall.time), ("step-too-large", 0.0));
-    for word in ["10 s", "smaller dt", "1317928 pairs"] {
+    for word in ["10 s", "smaller dt", "1344928 pairs"] {
         assert!(stall.reason.contains(word), "{word:?} is not in {:?}", stall.reason);
     }
     assert_eq!(stalled(1000), (stall, evaluations));

@@ -163,6 +163,7 @@ impl Moreau {
             };
             keep.extend(group.iter().map(kept));
         }
+        self.bridge_cracks(known, &keep);
         let mut keep = keep.into_iter();
         let mut index = 0;
         self.rows.retain(|_| {
@@ -173,6 +174,22 @@ impl Moreau {
             if row.class == Class::Collide && row.key.0 == Kind::Wall {
                 let (free, n) = (&mut self.free[row.key.1], row.normal);
                 *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+            }
+        }
+    }
+
+    /// Edges that a sphere touches at one point carry it together: over the middle of a crack it feels no side. The row
+    /// that is kept of them takes the mean of their normals, which differs from each by less than shows in a gap.
+    fn bridge_cracks(&mut self, known: usize, keep: &[bool]) {
+        for k in (known..self.rows.len()).filter(|k| keep[k - known]) {
+            let row = self.rows[k];
+            if row.key.0 == Kind::Pair || row.face || !row.holds() {
+                continue;
+            }
+            let others = self.rows[known..].iter().filter(|other| row.shares_crack_with(other));
+            let (sum, count) = others.fold((DVec3::ZERO, 0), |(sum, count), other| (sum + other.normal, count + 1));
+            if count > 1 {
+                self.rows[k].normal = sum / sum.length();
             }
         }
     }

@@ -297,6 +297,13 @@ impl Row {
         one_point && if self.face == other.face { self.key < other.key } else { self.face }
     }
 
+    /// Whether both hold one sphere at what is one point to rounding, on edges or corners. True of itself.
+    pub(super) fn shares_crack_with(&self, other: &Row) -> bool {
+        let ((kind, a, _), (other_kind, other_a, _)) = (self.key, other.key);
+        let near = || (self.normal - other.normal).length_squared() <= ONE_CRACK;
+        kind == other_kind && a == other_a && other.holds() && !other.face && near()
+    }
+
     /// Whether a touch has the same normal.
     pub(super) fn is_level_with(&self, touch: &contact_time::Touch) -> bool {
         (self.normal - touch.normal).length_squared() <= ONE_POINT
