@@ -9,7 +9,7 @@ use super::{Event, Post};
 use crate::app::{Input, Key};
 
 /// More keys and pastes do not wait: nobody types as far ahead.
-const MOST: usize = 1024;
+const MOST: usize = 256;
 
 /// What both ends know.
 #[derive(Default)]

@@ -34,6 +34,9 @@ use crate::{
 const NEAR: (u32, Duration) = (30, Duration::from_millis(25));
 const REMOTE: (u32, Duration) = (20, Duration::from_millis(100));
 
+/// A long backlog of events is obeyed in turns of this length, with a picture after each where one is due.
+const TURN: Duration = Duration::from_millis(50);
+
 /// Largest picture, columns and rows; beyond it no terminal is drawn, whatever it claims to be.
 const LARGEST: (u16, u16) = (1000, 500);
 
@@ -100,11 +103,14 @@ impl Driver {
                     event => event.ok(),
                 },
             };
-            // Everything that has arrived counts before the next picture.
-            for event in event.into_iter().chain(self.events.try_iter().collect::<Vec<_>>()) {
+            // Everything that has arrived counts before the next picture, unless it takes long.
+            let deadline = self.clock.elapsed() + TURN;
+            let mut next = event;
+            while let Some(event) = next {
                 if let Some(outcome) = self.obey(event)? {
                     return Ok(outcome);
                 }
+                next = if self.clock.elapsed() < deadline { self.events.try_recv().ok() } else { None };
             }
         }
     }
