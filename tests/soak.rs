@@ -5,8 +5,10 @@
 
 #![cfg(target_os = "linux")] // memory by /proc, one processor by affinity
 
+// A soak tells what it met.
+#![allow(clippy::print_stdout)]
+
 #[path = "support/pty.rs"]
-#[allow(dead_code)] // each test file uses what it needs
 mod pty;
 
 use std::fs;

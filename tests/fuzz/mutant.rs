@@ -136,26 +136,30 @@ pub(crate) fn mutant(files: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
 
 fn change(text: &mut Vec<u8>, files: &[Vec<u8>], random: &mut Random) {
     let from = below(text.len() + 1, random);
-    let to = (from + below(1 + 2usize.pow(below(8, random) as u32), random)).min(text.len());
-    let word = || pick(WORDS, &mut Random(from as u64 ^ random.0)).as_bytes().to_vec();
+    let to = (from + below(1 + (1 << below(8, random)), random)).min(text.len());
+    let word = pick(WORDS, random).bytes();
     match below(9, random) {
         0 => drop(text.drain(from..to)),
-        1 => drop(text.splice(from..from, word())),
-        2 | 3 => drop(text.splice(token(text, from), word())),
+        1 => drop(text.splice(from..from, word)),
+        2 | 3 => {
+            let range = token(text, from);
+            drop(text.splice(range, word));
+        }
         4 => {
             let piece = text[from..to].to_vec();
             let there = below(text.len() + 1, random);
-            text.splice(there..there, piece);
+            drop(text.splice(there..there, piece));
         }
         5 => {
             let other = pick(files, random);
             let start = below(other.len() + 1, random);
             let end = (start + to - from).min(other.len());
-            text.splice(from..to, other[start..end].iter().copied());
+            drop(text.splice(from..to, other[start..end].iter().copied()));
         }
         6 => text.truncate(from),
-        7 => text.iter_mut().skip(from).take(1).for_each(|byte| *byte ^= 1 << below(8, random)),
-        _ => text.iter_mut().skip(from).take(1).for_each(|byte| *byte = below(256, random) as u8),
+        7 if from < text.len() => text[from] ^= 1 << below(8, random),
+        8 if from < text.len() => text[from] = below(256, random) as u8,
+        _ => {}
     }
 }
 

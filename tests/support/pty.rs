@@ -3,6 +3,9 @@
 //! Reading happens on a thread, one read per request, so that a test can wait for output with a bound, and so that
 //! nobody else holds the terminal open when a test closes it.
 
+// Each test file is a crate of its own and uses what it needs.
+#![allow(dead_code)]
+
 use std::{
     io::{Read, Write},
     num::NonZero,
@@ -54,7 +57,9 @@ impl Start<'_> {
         let mut command = CommandBuilder::new(self.program);
         command.args(self.arguments);
         command.cwd(env!("CARGO_MANIFEST_DIR"));
-        for variable in ["LC_ALL", "LC_CTYPE", "NO_COLOR", "COLORTERM", "SSH_CONNECTION", "RUST_BACKTRACE"] {
+        for variable in
+            ["LC_ALL", "LC_CTYPE", "NO_COLOR", "COLORTERM", "SSH_CONNECTION", "RUST_BACKTRACE", "LINES", "COLUMNS"]
+        {
             command.env_remove(variable);
         }
         command.env("LANG", "C.UTF-8");
