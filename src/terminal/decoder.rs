@@ -7,16 +7,11 @@
 
 use std::time::Duration;
 
-use super::sequence;
+use super::{paste::Paste, sequence};
 use crate::app::{Code, Input, Key};
 
 /// A paste that does not go on for this long is over.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
-
-/// As much of a paste is kept, bytes; nothing here takes more. After as much a Ctrl-C in a paste is the key.
-const PASTE: usize = 4096;
-
-const PASTE_ENDS: &[u8] = b"\x1b[201~";
 
 /// A string that does not go on for this long is given up, s: byte by byte is slow, but not as slow as that.
 const STRING_PAUSE: Duration = Duration::from_secs(2);
@@ -28,7 +23,7 @@ const REST: Duration = Duration::from_secs(1);
 const PARAMETERS: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
-const CTRL_C: u8 = 0x03;
+pub(super) const CTRL_C: u8 = 0x03;
 const CANCEL: u8 = 0x18;
 const SUBSTITUTE: u8 = 0x1a;
 const BELL: u8 = 0x07;
@@ -69,16 +64,6 @@ enum State {
     Paste(Paste),
 }
 
-#[derive(Default)]
-struct Paste {
-    /// Its first [`PASTE`] bytes.
-    text: Vec<u8>,
-    /// Last bytes that may be the beginning of its end.
-    tail: Vec<u8>,
-    /// Bytes since the first Ctrl-C in it, if there is one.
-    interrupted: Option<usize>,
-}
-
 impl Decoder {
     /// A lone escape counts after `escape_time`.
     pub(super) fn new(escape_time: Duration) -> Decoder {
@@ -90,7 +75,7 @@ impl Decoder {
         match (&self.state, self.late) {
             (State::Ground, _) => None,
             (State::String { .. }, _) => Some(STRING_PAUSE),
-            (State::Paste(paste), _) if paste.interrupted.is_none() => Some(PASTE_PAUSE),
+            (State::Paste(paste), _) if !paste.is_interrupted() => Some(PASTE_PAUSE),
             (_, true) => Some(REST),
             (_, false) => Some(self.escape_time),
         }
@@ -119,8 +104,8 @@ impl Decoder {
             state @ (State::SingleShift | State::Control(_) | State::Mouse(_) | State::StringEscape) if !late => {
                 self.state = state;
             }
-            State::Paste(Paste { interrupted: Some(_), .. }) => self.press(Key::ctrl('c')),
-            State::Paste(paste) => self.pasted(paste),
+            State::Paste(paste) if paste.is_interrupted() => self.press(Key::ctrl('c')),
+            State::Paste(paste) => self.pasted(&paste),
             _ => {}
         }
         self.late &= !matches!(self.state, State::Ground);
@@ -130,8 +115,8 @@ impl Decoder {
         self.inputs.push(Input::Key(key));
     }
 
-    fn pasted(&mut self, paste: Paste) {
-        self.inputs.push(Input::Paste(String::from_utf8_lossy(&paste.text).into_owned()));
+    fn pasted(&mut self, paste: &Paste) {
+        self.inputs.push(Input::Paste(paste.text()));
     }
 
     fn take(&mut self, byte: u8) {
@@ -278,10 +263,9 @@ impl Decoder {
 
     fn paste(&mut self, mut paste: Paste, byte: u8) {
         if paste.ends_with(byte) {
-            return self.pasted(paste);
+            return self.pasted(&paste);
         }
-        if paste.interrupted.is_some_and(|since| since > PASTE) {
-            paste.interrupted = None;
+        if paste.is_interrupted_without_end() {
             self.press(Key::ctrl('c'));
         }
         self.state = State::Paste(paste);
@@ -314,31 +298,12 @@ fn may_follow_late(parameters: &[u8], byte: u8) -> bool {
     }
 }
 
-impl Paste {
-    /// Takes a byte; true if the paste ends with it.
-    fn ends_with(&mut self, byte: u8) -> bool {
-        match &mut self.interrupted {
-            Some(since) => *since += 1,
-            None if byte == CTRL_C => self.interrupted = Some(0),
-            None => {}
-        }
-        self.tail.push(byte);
-        if self.tail == PASTE_ENDS {
-            return true;
-        }
-        while !PASTE_ENDS.starts_with(&self.tail) {
-            let first = self.tail.remove(0);
-            if self.text.len() < PASTE {
-                self.text.push(first);
-            }
-        }
-        false
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{
+        super::paste::{ENDS, KEPT},
+        *,
+    };
     use proptest::{prelude::ProptestConfig, test_runner::RngSeed};
 
     /// A decoder fed piece by piece, with silence as long as the escape time-out between.
@@ -487,7 +452,7 @@ mod tests {
             assert_eq!(decode(&[begun, b"\x03"].concat()).last(), Some(&Input::Key(Key::ctrl('c'))), "{begun:?}");
             assert_eq!(end(torn(&[begun, b"\x03"])).last(), Some(&Input::Key(Key::ctrl('c'))), "{begun:?} torn");
         }
-        let flood = [b"\x1b[200~q\x03", &[b'x'; 2 * PASTE][..]].concat();
+        let flood = [b"\x1b[200~q\x03", &[b'x'; 2 * KEPT][..]].concat();
         assert_eq!(torn(&[&flood]).inputs, keys(&[Key::ctrl('c')]), "without a pause in a paste that does not end");
     }
 
@@ -495,8 +460,8 @@ mod tests {
     fn a_paste_is_one_input_whatever_is_in_it() {
         let expected = vec![Input::Paste("q\u{1b}[20x\u{3}y".into()), Input::Key(Key::char('r'))];
         assert_eq!(decode(b"\x1b[200~q\x1b[20x\x03y\x1b[201~r"), expected);
-        let huge = [b"\x1b[200~", &[b'x'; 3 * PASTE][..], PASTE_ENDS].concat();
-        assert_eq!(decode(&huge), [Input::Paste("x".repeat(PASTE))]);
+        let huge = [b"\x1b[200~", &[b'x'; 3 * KEPT][..], ENDS].concat();
+        assert_eq!(decode(&huge), [Input::Paste("x".repeat(KEPT))]);
     }
 
     proptest::proptest! {

@@ -9,6 +9,7 @@ mod detect;
 mod drive;
 mod input;
 mod pacer;
+mod paste;
 mod sequence;
 mod session;
 mod signals;

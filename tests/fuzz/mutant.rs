@@ -125,11 +125,11 @@ pub(crate) fn files(folders: &[&str], ending: &str, longest: usize) -> Vec<Vec<u
     found
 }
 
-/// One of the files with a few changes.
-pub(crate) fn mutant(files: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+/// One of the files with a few changes, or with pieces of `others`.
+pub(crate) fn mutant(files: &[Vec<u8>], others: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut text = pick(files, random).clone();
-    for _ in 0..1 + below(6, random) {
-        change(&mut text, files, random);
+    for _ in 0..1 + below(4, random) {
+        change(&mut text, others, random);
     }
     text
 }
