@@ -8,6 +8,7 @@
 // A soak tells what it met.
 #![allow(clippy::print_stdout)]
 
+#[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/pty.rs"]
 mod pty;
 

@@ -2,6 +2,7 @@
 
 #[path = "terminal/input.rs"]
 mod input;
+#[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/pty.rs"]
 mod pty;
 #[path = "support/random.rs"]

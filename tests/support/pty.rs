@@ -3,9 +3,6 @@
 //! Reading happens on a thread, one read per request, so that a test can wait for output with a bound, and so that
 //! nobody else holds the terminal open when a test closes it.
 
-// Each test file is a crate of its own and uses what it needs.
-#![allow(dead_code)]
-
 use std::{
     io::{Read, Write},
     num::NonZero,
