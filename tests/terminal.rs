@@ -1,7 +1,12 @@
 //! Does the built program treat a real terminal well? Each test runs it in a pseudo-terminal of its own.
 
+#[path = "terminal/input.rs"]
+mod input;
+#[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/pty.rs"]
 mod pty;
+#[path = "support/random.rs"]
+mod random;
 
 use std::time::Duration;
 
@@ -162,12 +167,13 @@ fn pasted_text_presses_no_keys() {
 }
 
 /// A shell with job control that starts the program, says when it has stopped, and continues it.
-const SHELL: &str = r#"set -m; "$0" paper-1 --paused; echo "stopped $?"; stty -a; read line; fg; echo "ended $?""#;
+const SHELL: &str = r#"set -m; "$0" "$@"; echo "stopped $?"; stty -a; read line; fg; echo "ended $?""#;
 
 #[test]
 fn it_can_be_suspended_and_continued() {
     let program = carom(&[]).program;
-    let mut pty = Start { program: "bash", arguments: &["-c", SHELL, program], ..carom(&[]) }.run();
+    let mut pty =
+        Start { program: "bash", arguments: &["-c", SHELL, program, "paper-1", "--paused"], ..carom(&[]) }.run();
     pty.until_text(HINT);
     pty.send("\x1a");
     pty.until_text("stopped 147"); // 128 + SIGSTOP
@@ -177,6 +183,46 @@ fn it_can_be_suspended_and_continued() {
     pty.send("\n");
     pty.until_text(HINT);
     assert!(pty.screen().alternate_screen() && pty.screen().hide_cursor());
+    pty.send("q");
+    pty.until_text("ended 0");
+    assert_eq!(pty.exit(), 0);
+    pty.assert_given_back();
+}
+
+/// How a picture begins that needs nothing on the screen.
+const WHOLE: &[u8] = b"\x1b[?2026h\x1b[m\x1b[2J";
+
+#[test]
+fn continued_it_sends_a_whole_picture_first() {
+    let mut pty = running();
+    for _ in 0..10 {
+        pty.signal(Signal::STOP);
+        while pty.read(Duration::from_millis(100)).is_some() {} // what it had sent before
+        let from = pty.output.len();
+        pty.signal(Signal::CONT);
+        pty.until_bytes(from, b"\x1b[?2026l");
+        let sent = &pty.output[from..];
+        let first = sent.windows(8).position(|bytes| bytes == b"\x1b[?2026h").expect("a picture");
+        assert!(sent[first..].starts_with(WHOLE), "{:?}", String::from_utf8_lossy(sent));
+    }
+    pty.send("q");
+    assert_eq!(pty.exit(), 0);
+    pty.assert_given_back();
+}
+
+#[test]
+fn after_fg_a_running_program_sends_a_whole_picture_first() {
+    let program = carom(&[]).program;
+    let mut pty = Start { program: "bash", arguments: &["-c", SHELL, program, "bouncing-49"], ..carom(&[]) }.run();
+    pty.until_text(HINT);
+    pty.send("\x1a");
+    pty.until_text("echoke"); // the last word of `stty -a`
+    let from = pty.output.len();
+    pty.send("\n");
+    pty.until_bytes(from, b"\x1b[?2026l");
+    let sent = &pty.output[from..];
+    let first = sent.windows(8).position(|bytes| bytes == b"\x1b[?2026h").expect("a picture");
+    assert!(sent[first..].starts_with(WHOLE), "{:?}", String::from_utf8_lossy(sent));
     pty.send("q");
     pty.until_text("ended 0");
     assert_eq!(pty.exit(), 0);

@@ -52,7 +52,6 @@ const METHODS: &[&str] = &["paper", "swept", "exact", "moreau"];
 /// Which crates live where only.
 const HOMES: &[(&str, &[&str])] = &[
     ("crossterm", &["terminal"]),
-    ("termina", &["terminal"]),
     ("signal_hook", &["terminal", "cli"]),
     ("ron", &["scene", "config"]),
     ("serde_path_to_error", &["scene", "config"]),

@@ -13,8 +13,7 @@ use super::{
 };
 use crate::{
     physics::Settings,
-    scene::{self, Opened},
-    view,
+    scene, view,
     worker::{Activity, Command},
 };
 
@@ -104,6 +103,9 @@ impl App {
             Action::Help => self.toggle_help(),
             Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
             Action::Close => {
+                if self.stop_loading() {
+                    return Effect::DrawNow;
+                }
                 if self.headed {
                     self.run(false);
                 }
@@ -171,42 +173,15 @@ impl App {
         }
     }
 
-    /// Reads the scene's file again; if it no longer loads, the old run goes on.
-    fn reload(&mut self) {
-        if self.current.path.is_none() {
-            return self.say(format!("{} is built in: there is no file to reload.", self.current.name));
-        }
-        match scene::open(&self.current.name) {
-            Ok(opened) => {
-                let settings = knobs::reloaded(self.settings, self.current.scene.solver, opened.scene.solver);
-                self.load(opened, settings);
-                self.say(format!("Reloaded {}.", self.current.name));
-            }
-            Err(error) => self.say(one_line(&error.to_string())),
-        }
-    }
-
-    /// Opens another scene; if it does not load, the old run goes on.
-    fn open_scene(&mut self, name: &str) {
-        match scene::open(name) {
-            Ok(opened) => {
-                let settings = opened.scene.solver;
-                self.load(opened, settings);
-            }
-            Err(error) => self.say(one_line(&error.to_string())),
-        }
-    }
-
     /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
-    fn load(&mut self, opened: Opened, settings: Settings) {
+    pub(super) fn show(&mut self, current: Current, settings: Settings) {
         let running = self.running;
-        self.current = Current::of(opened);
+        self.current = current;
         self.settings = settings;
         self.worker.send(Command::Load(self.current.job(settings)));
         self.run(running);
         look::whole_scene(&mut self.look);
         self.look.selected = None;
-        self.warn();
         if self.comparison.is_some() {
             self.compare();
         }
@@ -214,7 +189,10 @@ impl App {
 
     fn toggle_ghost(&mut self) {
         match self.comparison.take() {
-            Some(_) => self.say("The exact run is no longer shown."),
+            Some(comparison) => {
+                self.ending = Some(comparison.end());
+                self.say("The exact run is no longer shown.");
+            }
             None => {
                 self.say("Dotted: where the exact run is now.");
                 self.compare();
@@ -225,7 +203,8 @@ impl App {
 
     /// Starts the exact run beside this one.
     fn compare(&mut self) {
-        match Comparison::start(&self.current, &self.report, Arc::clone(&self.notify)) {
+        let before = self.comparison.take().map(Comparison::end).or(self.ending.take());
+        match Comparison::start(&self.current, &self.report, before, Arc::clone(&self.notify)) {
             Ok(comparison) => self.comparison = Some(comparison),
             Err(error) => self.say(format!("The exact run cannot start: {error}.")),
         }
@@ -242,7 +221,7 @@ impl App {
     fn neighbor_scene(&mut self, offset: isize) {
         let given = self.given.iter().map(|entry| entry.name.clone());
         let names: Vec<String> = given.chain(scene_list::built_in_names().map(str::to_owned)).collect();
-        let at = names.iter().position(|name| *name == self.current.name);
+        let at = names.iter().position(|name| *name == self.wanted_name());
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
         self.open_scene(&names[next]);
     }
@@ -376,6 +355,6 @@ fn scrolled(key: Key, scroll: usize, limit: usize, screen: usize) -> Option<usiz
 }
 
 /// An error's lines joined, for the message line.
-fn one_line(text: &str) -> String {
+pub(super) fn one_line(text: &str) -> String {
     text.lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }

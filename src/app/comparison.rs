@@ -6,7 +6,7 @@ use super::Current;
 use crate::{
     snapshot::{Ghost, Stage, Trade},
     view,
-    worker::{Beside, Notify, Report},
+    worker::{Beside, Ending, Notify, Report},
 };
 
 /// A comparison under way.
@@ -19,17 +19,29 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    /// Compares from the latest `report` on; `notify` is called when there is news of the exact run.
+    /// Compares from the latest `report` on, once the comparison `before` has ended; `notify` is called when there is
+    /// news of the exact run.
     ///
     /// # Errors
     /// If the system has no thread to give.
-    pub(super) fn start(current: &Current, report: &Report, notify: Notify) -> std::io::Result<Comparison> {
-        let (stage, beside) = (Arc::clone(&current.stage), Beside::start(Arc::clone(&current.scene), notify)?);
+    pub(super) fn start(
+        current: &Current,
+        report: &Report,
+        before: Option<Ending>,
+        notify: Notify,
+    ) -> std::io::Result<Comparison> {
+        let stage = Arc::clone(&current.stage);
+        let beside = Beside::start(Arc::clone(&current.scene), before, notify)?;
         if Arc::ptr_eq(&stage, &report.snapshot.stage) {
             beside.compare(&report.snapshot);
         }
         let trade = Trade::new(stage.duration);
         Ok(Comparison { stage, beside, ghost: Arc::new(None), trade })
+    }
+
+    /// Ends it; the next one takes what is returned.
+    pub(super) fn end(self) -> Ending {
+        self.beside.end()
     }
 
     /// Takes note of what both threads have reported since `before`.

@@ -5,6 +5,7 @@ mod action;
 mod comparison;
 mod keys;
 mod knobs;
+mod loading;
 mod look;
 mod prompt;
 mod scene_list;
@@ -14,6 +15,7 @@ use std::{path::PathBuf, sync::Arc};
 pub use action::{Action, Direction};
 use comparison::Comparison;
 pub use keys::{Binding, Code, Key, action, help_rows, hints, table};
+use loading::Loading;
 use ratatui::{
     buffer::Buffer,
     layout::{Position, Rect},
@@ -25,7 +27,7 @@ use crate::{
     scene::Opened,
     snapshot::{Ghost, Stage},
     view::{self, Colors, Look, Marker, Mode, Pace, Popup, Screen},
-    worker::{Activity, Command, Job, Notify, Report, Worker},
+    worker::{Activity, Command, Ending, Errands, Job, Notify, Report, Worker},
 };
 
 /// What the application starts with.
@@ -122,6 +124,11 @@ pub struct App {
     headed: bool,
     /// The exact run beside it, if it was asked for.
     comparison: Option<Comparison>,
+    /// The exact run that was shown last, while it ends.
+    ending: Option<Ending>,
+    /// The scene that comes next, if one is on its way, and who fetches it.
+    loading: Option<Loading>,
+    errands: Option<Errands>,
     notify: Notify,
     look: Look,
     open: Open,
@@ -153,6 +160,9 @@ impl App {
             running: false,
             headed: false,
             comparison: None,
+            ending: None,
+            loading: None,
+            errands: None,
             notify,
             look: first_look(setup.marker, setup.colors),
             open: Open::Nothing,
@@ -202,7 +212,7 @@ impl App {
     pub fn settled(&self) -> bool {
         let compared = |comparison: &Comparison| comparison.is_settled(self.report.snapshot.t);
         let obeyed = self.report.obeyed == self.worker.sent() && self.report.activity != Activity::Running;
-        obeyed && self.comparison.as_ref().is_none_or(compared)
+        obeyed && self.loading.is_none() && self.comparison.as_ref().is_none_or(compared)
     }
 
     /// The exact run beside the one shown, where it was asked for and has said anything yet.
@@ -215,8 +225,15 @@ impl App {
         &self.look
     }
 
-    /// Takes the worker's latest report.
+    /// Takes the scene on its way if it has come, and the worker's latest report.
     fn news(&mut self) -> Effect {
+        match (self.look_for_scene(), self.report_news()) {
+            (Some(Effect::DrawNow), Effect::Draw) => Effect::DrawNow,
+            (_, effect) => effect,
+        }
+    }
+
+    fn report_news(&mut self) -> Effect {
         let before = std::mem::replace(&mut self.report, self.worker.take());
         if let Some(said) = &self.report.panic {
             return Effect::Fail(said.clone());

@@ -3,6 +3,9 @@
 use super::keys::{Code, Key};
 use crate::scene;
 
+/// Longest filter, bytes; no scene's description is as long.
+const FILTER: usize = 200;
+
 /// A scene that can be opened.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Entry {
@@ -115,7 +118,8 @@ impl SceneList {
                 self.filtering = false;
             }
             (Code::Backspace, _) => self.filtering = self.filter.pop().is_some(),
-            (_, Some(c)) => self.filter.push(c),
+            (_, Some(c)) if self.filter.len() < FILTER => self.filter.push(c),
+            (_, Some(_)) => {}
             _ => return Outcome::NotMine,
         }
         self.move_to(0)

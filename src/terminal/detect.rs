@@ -10,18 +10,23 @@ pub(super) struct Environment {
     color_term: Option<String>,
     term: Option<String>,
     ssh: bool,
+    columns: Option<u16>,
+    lines: Option<u16>,
 }
 
 impl Environment {
     /// What `variable` says.
     pub(super) fn read(variable: impl Fn(&str) -> Option<String>) -> Environment {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
+        let count = |name: &str| set(name).and_then(|value| value.trim().parse().ok()).filter(|&count| count > 0);
         Environment {
             locale: ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set),
             no_color: set("NO_COLOR").is_some(),
             color_term: set("COLORTERM"),
             term: set("TERM"),
             ssh: set("SSH_CONNECTION").is_some(),
+            columns: count("COLUMNS"),
+            lines: count("LINES"),
         }
     }
 
@@ -53,6 +58,13 @@ impl Environment {
             _ if term.contains("256color") => Colors::Ansi256,
             _ => Colors::Ansi16,
         })
+    }
+
+    /// Columns and rows of a terminal that reports these. Some, a serial line among them, report 0: that is unknown.
+    pub(super) fn size(&self, (columns, rows): (u16, u16)) -> (u16, u16) {
+        let known =
+            |reported: u16, said: Option<u16>, usual| if reported > 0 { reported } else { said.unwrap_or(usual) };
+        (known(columns, self.columns, 80), known(rows, self.lines, 24))
     }
 
     /// Whether a network lies between us and the screen.
@@ -92,5 +104,15 @@ mod tests {
         assert_eq!(colors(&[("NO_COLOR", "1"), ("COLORTERM", "24bit")]), Colors::Never);
         assert_eq!(colors(&[("NO_COLOR", ""), ("COLORTERM", "24bit")]), Colors::Rgb, "empty is unset");
         assert_eq!(with(&[("NO_COLOR", "1")]).colors(Some(Colors::Rgb)), Colors::Rgb);
+    }
+
+    #[test]
+    fn a_terminal_of_unknown_size_has_that_of_the_environment_or_the_usual_one() {
+        assert_eq!(with(&[]).size((0, 0)), (80, 24));
+        assert_eq!(with(&[("COLUMNS", "100"), ("LINES", "30")]).size((0, 0)), (100, 30));
+        assert_eq!(with(&[("COLUMNS", "100"), ("LINES", "30")]).size((1, 0)), (1, 30), "what is reported wins");
+        for nonsense in ["", "0", "-1", "many", "70000"] {
+            assert_eq!(with(&[("COLUMNS", nonsense), ("LINES", nonsense)]).size((0, 0)), (80, 24), "{nonsense:?}");
+        }
     }
 }

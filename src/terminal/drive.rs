@@ -16,6 +16,7 @@ use signal_hook::consts::SIGHUP;
 
 use super::{
     Error, Event, Options, Outcome, Post,
+    backlog::{Backlog, backlog},
     detect::Environment,
     input,
     pacer::{Next, Pacer},
@@ -24,7 +25,7 @@ use super::{
     writer::Writer,
 };
 use crate::{
-    app::{App, Effect, Input, Setup},
+    app::{App, Effect, Input, Key, Setup},
     frame::Encoder,
 };
 
@@ -32,6 +33,9 @@ use crate::{
 /// sequence may take.
 const NEAR: (u32, Duration) = (30, Duration::from_millis(25));
 const REMOTE: (u32, Duration) = (20, Duration::from_millis(100));
+
+/// A long backlog of events is obeyed in turns of this length, with a picture after each where one is due.
+const TURN: Duration = Duration::from_millis(50);
 
 /// Largest picture, columns and rows; beyond it no terminal is drawn, whatever it claims to be.
 const LARGEST: (u16, u16) = (1000, 500);
@@ -56,21 +60,25 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let (sender, events) = mpsc::channel();
     let post = Post(sender);
     let news = post.clone();
-    let mut app = App::new(setup, Arc::new(move || news.send(Event::Input(Input::News))))?;
+    let mut app = App::new(setup, Arc::new(move || news.send(Event::News)))?;
     options.message.into_iter().for_each(|message| app.say(message));
     let guard = Session::start(io::stdout().as_fd(), post.clone())?;
     signals::start(Arc::clone(guard.session()), post.clone())?;
     let writer = Writer::start(Arc::clone(guard.session()), post.clone())?;
-    input::start(escape_time, post)?;
+    let (entrance, backlog) = backlog(post);
+    input::start(escape_time, entrance)?;
     let pacer = Pacer::new(rate);
-    Driver { app, guard, events, writer, pacer, encoder: Encoder::new(), clock: Instant::now() }.run()
+    let (encoder, clock) = (Encoder::new(), Instant::now());
+    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock }.run()
 }
 
 /// The application and its terminal.
 struct Driver {
     app: App,
+    environment: Environment,
     guard: Guard,
     events: Receiver<Event>,
+    backlog: Backlog,
     writer: Writer,
     pacer: Pacer,
     encoder: Encoder,
@@ -95,21 +103,35 @@ impl Driver {
                     event => event.ok(),
                 },
             };
-            // Everything that has arrived counts before the next picture.
-            for event in event.into_iter().chain(self.events.try_iter().collect::<Vec<_>>()) {
+            // Everything that has arrived counts before the next picture, unless it takes long.
+            let deadline = self.clock.elapsed() + TURN;
+            let mut next = event;
+            while let Some(event) = next {
                 if let Some(outcome) = self.obey(event)? {
                     return Ok(outcome);
                 }
+                next = if self.clock.elapsed() < deadline { self.events.try_recv().ok() } else { None };
             }
         }
     }
 
     fn obey(&mut self, event: Event) -> Step {
+        if self.backlog.interrupted()
+            && let Some(outcome) = self.handle(Input::Key(Key::ctrl('c')))?
+        {
+            return Ok(Some(outcome));
+        }
         match event {
-            Event::Input(input) => {
-                let effect = self.app.handle(input);
-                return self.follow(effect);
+            Event::Typed(input) => {
+                let step = self.handle(input);
+                let left_out = self.backlog.obeyed();
+                if left_out > 0 {
+                    self.app.say(format!("{left_out} keys came faster than they could be obeyed, and were left out."));
+                }
+                return step;
             }
+            Event::News => return self.handle(Input::News),
+            Event::Interrupted => {}
             Event::Sent => self.pacer.sent(),
             Event::Resized => self.pacer.resized(self.clock.elapsed()),
             Event::Suspend => self.suspend()?,
@@ -127,8 +149,8 @@ impl Driver {
         Ok(None)
     }
 
-    fn follow(&mut self, effect: Effect) -> Step {
-        match effect {
+    fn handle(&mut self, input: Input) -> Step {
+        match self.app.handle(input) {
             Effect::Nothing => {}
             Effect::Draw => self.pacer.changed(self.clock.elapsed()),
             Effect::DrawNow => self.pacer.urgent(self.clock.elapsed()),
@@ -159,13 +181,14 @@ impl Driver {
 
     fn draw(&mut self) {
         self.pacer.drawn(self.clock.elapsed());
-        let (columns, rows) = self.guard.session().size(io::stdout().as_fd());
+        let takes = self.guard.session().takes();
+        let (columns, rows) = self.environment.size(self.guard.session().size(io::stdout().as_fd()));
         let mut buffer = Buffer::empty(Rect::new(0, 0, columns.min(LARGEST.0), rows.min(LARGEST.1)));
         self.app.draw(&mut buffer);
         let picture = self.encoder.encode(&buffer, self.app.cursor());
         if !picture.is_empty() {
             self.pacer.sending();
-            self.writer.send(picture);
+            self.writer.send(picture, takes);
         }
     }
 }

@@ -1,12 +1,16 @@
-//! Drives the application on a real terminal. The only place that names crossterm or termina.
+//! Drives the application on a real terminal. The only place that names crossterm.
 //!
 //! Threads: this one obeys inputs and draws; `input` reads the terminal; `signals` waits for signals; `writer` sends
 //! pictures; the application's worker simulates. All of them post events to this one and wait for nobody.
 
+mod backlog;
+mod decoder;
 mod detect;
 mod drive;
 mod input;
 mod pacer;
+mod paste;
+mod sequence;
 mod session;
 mod signals;
 mod writer;
@@ -81,7 +85,12 @@ impl From<io::Error> for Error {
 /// What the threads tell the one that draws.
 #[derive(Debug)]
 enum Event {
-    Input(Input),
+    /// A key was pressed or text pasted.
+    Typed(Input),
+    /// Ctrl-C was pressed; see [`backlog::Backlog::interrupted`].
+    Interrupted,
+    /// The application's worker has news.
+    News,
     Resized,
     /// The terminal has taken the last picture.
     Sent,

@@ -11,7 +11,7 @@ use std::{
     path::Path,
     sync::{
         Arc, Mutex, MutexGuard, TryLockError,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
     },
     thread,
     time::{Duration, Instant},
@@ -23,6 +23,7 @@ use rustix::{
     io::Errno,
     termios::{QueueSelector, tcflush},
 };
+use signal_hook::consts::SIGCONT;
 
 use super::{Event, Post};
 
@@ -40,6 +41,11 @@ pub(super) struct Session {
     screen: Mutex<Screen>,
     /// Whether the terminal is ours. Once it is not, nothing is written any more.
     ours: AtomicBool,
+    /// How often it was taken: what was drawn before the last time is for a screen that is no more.
+    takes: AtomicU64,
+    /// Set where the signal arrives that continues a stopped process: until the terminal is taken again, it is in an
+    /// unknown state.
+    continued: Arc<AtomicBool>,
 }
 
 /// The way to the terminal.
@@ -65,7 +71,13 @@ impl Session {
     /// # Errors
     /// If the terminal can't be put into raw mode.
     pub(super) fn start(stdout: BorrowedFd, post: Post) -> io::Result<Guard> {
-        let session = Arc::new(Session { screen: Mutex::new(Screen::open(stdout)?), ours: AtomicBool::new(false) });
+        let session = Arc::new(Session {
+            screen: Mutex::new(Screen::open(stdout)?),
+            ours: AtomicBool::new(false),
+            takes: AtomicU64::new(0),
+            continued: Arc::new(AtomicBool::new(false)),
+        });
+        signal_hook::flag::register(SIGCONT, Arc::clone(&session.continued))?;
         let previous: Hook = Arc::from(panic::take_hook());
         let (ours, theirs) = (Arc::clone(&session), Arc::clone(&previous));
         panic::set_hook(Box::new(move |info| {
@@ -86,8 +98,24 @@ impl Session {
         // The mode remembered by crossterm may be older than what a shell has set since.
         terminal::disable_raw_mode()?;
         terminal::enable_raw_mode()?;
+        let screen = self.lock();
+        self.continued.store(false, Ordering::Release);
+        self.takes.fetch_add(1, Ordering::AcqRel);
         self.ours.store(true, Ordering::Release);
-        self.write(HELLO).map(drop)
+        Ok(screen.send(HELLO, || self.is_ours()).map(drop)?)
+    }
+
+    /// How often the terminal was taken: a picture belongs to the last time.
+    pub(super) fn takes(&self) -> u64 {
+        self.takes.load(Ordering::Acquire)
+    }
+
+    fn is_ours(&self) -> bool {
+        self.ours.load(Ordering::Acquire) && !self.continued.load(Ordering::Acquire)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Screen> {
+        self.screen.lock().unwrap_or_else(|poison| poison.into_inner())
     }
 
     /// Undoes [`Session::take`]; does nothing if that is done already. Never waits long, whatever the terminal does.
@@ -106,20 +134,22 @@ impl Session {
         let _ = terminal::disable_raw_mode(); // fails only on a terminal that is gone
     }
 
-    /// Writes all of `bytes`, waiting for the terminal as long as it is ours; false if it is not (any more).
+    /// Writes all of a picture drawn when the terminal had been taken `takes` times, waiting for the terminal as long as
+    /// it is ours; false if it is not (any more), or was taken again: the next picture is a whole one.
     ///
     /// # Errors
     /// If the terminal is gone.
-    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<bool> {
-        let screen = self.screen.lock().unwrap_or_else(|poison| poison.into_inner());
-        // A picture still in the writer's mailbox while we were stopped would land on the shell's screen.
-        if !self.ours.load(Ordering::Acquire) {
+    pub(super) fn write(&self, picture: &[u8], takes: u64) -> io::Result<bool> {
+        let screen = self.lock();
+        // A picture still in the writer's mailbox while we were stopped would land on the shell's screen, or be taken for
+        // a difference to a screen that shows something else now.
+        if !self.is_ours() || takes != self.takes() {
             return Ok(false);
         }
-        Ok(screen.send(bytes, || self.ours.load(Ordering::Acquire))?)
+        Ok(screen.send(picture, || self.is_ours())?)
     }
 
-    /// Columns and rows.
+    /// Columns and rows as the terminal reports them; 0 where it knows none.
     pub(super) fn size(&self, stdout: BorrowedFd) -> (u16, u16) {
         rustix::termios::tcgetwinsize(stdout).map_or((0, 0), |size| (size.ws_col, size.ws_row))
     }

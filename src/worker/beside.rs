@@ -2,16 +2,20 @@
 //!
 //! It never slows the run down: snapshots are handed over, not asked for; a snapshot that comes while the exact run is
 //! still on its way to an earlier one replaces the one waiting; and the thread is the last to get a processor.
+//!
+//! Nor does it grow: at most three snapshots are held (in the mailbox, next, under way), and of two exact runs the later
+//! begins only when the earlier has ended, however often it is asked for.
 
 use std::{
-    sync::{
-        Arc,
-        mpsc::{self, Receiver, Sender, TryRecvError},
-    },
-    thread,
+    sync::Arc,
+    thread::{self, JoinHandle},
 };
 
-use super::{Notify, slot::Slot};
+use super::{
+    Notify,
+    mailbox::{Reader, Sender, mailbox},
+    slot::Slot,
+};
 use crate::{
     measure::Growth,
     physics::{Method, Progress, Settings, Simulation, Until},
@@ -26,28 +30,41 @@ const SLICE: u64 = 10_000;
 pub struct Beside {
     snapshots: Sender<Arc<Snapshot>>,
     slot: Arc<Slot<Option<Ghost>>>,
+    thread: JoinHandle<()>,
 }
 
+/// An exact run that was told to end, which it does within some milliseconds, or once its scene is set up.
+pub struct Ending(JoinHandle<()>);
+
 impl Beside {
-    /// Starts an exact run of `scene` in a thread, which calls `notify` when there is a ghost that nobody has taken.
+    /// Starts an exact run of `scene` in a thread, which calls `notify` when there is a ghost that has not been taken.
+    /// The run begins when the one `before` it has ended, so that the memory of one is enough.
     ///
     /// # Errors
     /// If the system has no thread to give.
-    pub fn start(scene: Arc<Scene>, notify: Notify) -> std::io::Result<Beside> {
-        let (snapshots, inbox) = mpsc::channel();
+    pub fn start(scene: Arc<Scene>, before: Option<Ending>, notify: Notify) -> std::io::Result<Beside> {
+        let (snapshots, inbox) = mailbox();
         let slot = Arc::new(Slot::new(None, notify));
         let theirs = Arc::clone(&slot);
-        thread::Builder::new().name("exact".into()).spawn(move || {
+        let thread = thread::Builder::new().name("exact".into()).spawn(move || {
             step_back();
-            let mut follower = Follower::new(scene, inbox);
+            if let Some(Ending(before)) = before {
+                let _ = before.join(); // a panic of that thread has been reported by itself
+            }
+            let Some(mut follower) = Follower::new(scene, inbox) else { return };
             while follower.follow(&theirs).is_some() {}
         })?;
-        Ok(Beside { snapshots, slot })
+        Ok(Beside { snapshots, slot, thread })
+    }
+
+    /// Tells the thread to end; what is returned is for the [`Beside::start`] of the next run.
+    pub fn end(self) -> Ending {
+        Ending(self.thread)
     }
 
     /// Says where the run is; the answer is a later ghost, or none if a newer snapshot comes first.
     pub fn compare(&self, snapshot: &Arc<Snapshot>) {
-        let _ = self.snapshots.send(Arc::clone(snapshot)); // a thread that has ended has said why
+        self.snapshots.put(Arc::clone(snapshot));
     }
 
     /// The latest ghost, if there is one yet.
@@ -65,7 +82,7 @@ fn step_back() {
 /// What the thread knows.
 struct Follower {
     scene: Arc<Scene>,
-    inbox: Receiver<Arc<Snapshot>>,
+    inbox: Reader<Arc<Snapshot>>,
     exact: Simulation,
     growth: Growth,
     /// What was said last.
@@ -77,10 +94,14 @@ struct Follower {
 }
 
 impl Follower {
-    fn new(scene: Arc<Scene>, inbox: Receiver<Arc<Snapshot>>) -> Follower {
-        let (exact, growth) = (begin(&scene), Growth::of(&scene));
+    /// Sets the run up, which takes seconds in a scene of a million spheres; `None` if it is not wanted any more.
+    fn new(scene: Arc<Scene>, inbox: Reader<Arc<Snapshot>>) -> Option<Follower> {
+        let first = inbox.wait().ok()?;
+        let exact = begin(&scene);
+        let next = inbox.look().ok()?.or(Some(first));
+        let growth = Growth::of(&scene);
         let energy_scale = exact.initial_energy().abs();
-        Follower { scene, inbox, exact, growth, ghost: None, energy_scale, next: None }
+        Some(Follower { scene, inbox, exact, growth, ghost: None, energy_scale, next })
     }
 
     /// Waits for a snapshot, goes as far as it is, and compares; `None` if nobody is left to send one.
@@ -108,7 +129,7 @@ impl Follower {
     /// With nothing to compare: looks for the horizon up to where the run is, then waits for a snapshot.
     fn look_ahead(&mut self, slot: &Slot<Option<Ghost>>) -> Option<()> {
         let Some(ghost) = self.ghost.as_mut().filter(|ghost| self.growth.is_behind(ghost.t)) else {
-            self.next = Some(self.inbox.recv().ok()?);
+            self.next = Some(self.inbox.wait().ok()?);
             return Some(());
         };
         self.growth.advance(SLICE);
@@ -121,13 +142,10 @@ impl Follower {
 
     /// Keeps the newest snapshot that has arrived; `None` if nobody is left to send one.
     fn listen(&mut self) -> Option<()> {
-        loop {
-            match self.inbox.try_recv() {
-                Ok(snapshot) => self.next = Some(snapshot),
-                Err(TryRecvError::Empty) => return Some(()),
-                Err(TryRecvError::Disconnected) => return None,
-            }
+        if let Some(snapshot) = self.inbox.look().ok()? {
+            self.next = Some(snapshot);
         }
+        Some(())
     }
 
     fn compare(&mut self, run: &Snapshot, stall: Option<String>) -> Ghost {

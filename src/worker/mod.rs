@@ -5,6 +5,8 @@
 //! depends on any of it.
 
 mod beside;
+mod errands;
+mod mailbox;
 mod pace;
 mod run;
 mod slot;
@@ -18,7 +20,8 @@ use std::{
     thread,
 };
 
-pub use beside::Beside;
+pub use beside::{Beside, Ending};
+pub use errands::Errands;
 use run::Runner;
 use slot::Slot;
 

@@ -54,7 +54,9 @@ impl Start<'_> {
         let mut command = CommandBuilder::new(self.program);
         command.args(self.arguments);
         command.cwd(env!("CARGO_MANIFEST_DIR"));
-        for variable in ["LC_ALL", "LC_CTYPE", "NO_COLOR", "COLORTERM", "SSH_CONNECTION", "RUST_BACKTRACE"] {
+        for variable in
+            ["LC_ALL", "LC_CTYPE", "NO_COLOR", "COLORTERM", "SSH_CONNECTION", "RUST_BACKTRACE", "LINES", "COLUMNS"]
+        {
             command.env_remove(variable);
         }
         command.env("LANG", "C.UTF-8");
@@ -147,11 +149,27 @@ impl Pty {
     }
 
     pub(crate) fn send(&mut self, keys: &str) {
-        self.writer.write_all(keys.as_bytes()).and_then(|()| self.writer.flush()).expect("the terminal takes keys");
+        self.send_bytes(keys.as_bytes());
+    }
+
+    pub(crate) fn send_bytes(&mut self, bytes: &[u8]) {
+        self.writer.write_all(bytes).and_then(|()| self.writer.flush()).expect("the terminal takes keys");
+    }
+
+    /// Looks on as a screen of that size, whatever the terminal reports.
+    pub(crate) fn emulate(&mut self, cols: u16, rows: u16) {
+        self.emulator.screen_mut().set_size(at_least_one(rows), at_least_one(cols));
+    }
+
+    /// Memory that the program has in use, bytes; 0 where the system has no `/proc`.
+    pub(crate) fn memory(&self) -> u64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.pid.as_raw_nonzero())).unwrap_or_default();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap_or("0 kB");
+        line.split_whitespace().next().and_then(|kibibytes| kibibytes.parse::<u64>().ok()).unwrap_or(0) * 1024
     }
 
     pub(crate) fn resize(&mut self, cols: u16, rows: u16) {
-        self.emulator.screen_mut().set_size(at_least_one(rows), at_least_one(cols));
+        self.emulate(cols, rows);
         self.master.resize(PtySize { rows, cols, ..PtySize::default() }).expect("the terminal can be resized");
     }
 

@@ -1,0 +1,100 @@
+//! Keys that came and have not been obeyed yet: a bounded number, and Ctrl-C before all of them.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, AtomicUsize, Ordering},
+};
+
+use super::{Event, Post};
+use crate::app::{Input, Key};
+
+/// More keys and pastes do not wait: nobody types as far ahead.
+const MOST: usize = 256;
+
+/// What both ends know.
+#[derive(Default)]
+struct Shared {
+    waiting: AtomicUsize,
+    left_out: AtomicUsize,
+    interrupted: AtomicBool,
+}
+
+/// The end of the thread that reads the terminal.
+pub(super) struct Entrance {
+    shared: Arc<Shared>,
+    post: Post,
+}
+
+/// The end of the thread that obeys.
+pub(super) struct Backlog(Arc<Shared>);
+
+/// A backlog whose entrance posts an event for each input.
+pub(super) fn backlog(post: Post) -> (Entrance, Backlog) {
+    let shared = Arc::new(Shared::default());
+    (Entrance { shared: Arc::clone(&shared), post }, Backlog(shared))
+}
+
+impl Entrance {
+    /// Takes an input in, or leaves it out if too many wait; a Ctrl-C is never left out and waits for none.
+    pub(super) fn take(&self, input: Input) {
+        if input == Input::Key(Key::ctrl('c')) {
+            if !self.shared.interrupted.swap(true, Ordering::AcqRel) {
+                self.post.send(Event::Interrupted);
+            }
+        } else if self.shared.waiting.fetch_add(1, Ordering::AcqRel) < MOST {
+            self.post.send(Event::Typed(input));
+        } else {
+            self.shared.waiting.fetch_sub(1, Ordering::AcqRel);
+            self.shared.left_out.fetch_add(1, Ordering::AcqRel);
+        }
+    }
+
+    /// The way to the thread that obeys.
+    pub(super) fn post(&self) -> &Post {
+        &self.post
+    }
+}
+
+impl Backlog {
+    /// Whether Ctrl-C was pressed since this was last asked: to ask before each event, whatever it is.
+    pub(super) fn interrupted(&self) -> bool {
+        self.0.interrupted.swap(false, Ordering::AcqRel)
+    }
+
+    /// An input has been obeyed. When that was the last one: how many were left out since there was none before.
+    pub(super) fn obeyed(&self) -> usize {
+        match self.0.waiting.fetch_sub(1, Ordering::AcqRel) {
+            1 => self.0.left_out.swap(0, Ordering::AcqRel),
+            _ => 0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc;
+
+    #[test]
+    fn a_million_keys_are_bounded_and_ctrl_c_waits_for_none_of_them() {
+        let (sender, events) = mpsc::channel();
+        let (entrance, backlog) = backlog(Post(sender));
+        for _ in 0..1_000_000 {
+            entrance.take(Input::Key(Key::char(']')));
+        }
+        assert!(!backlog.interrupted());
+        for _ in 0..1_000_000 {
+            entrance.take(Input::Key(Key::ctrl('c')));
+        }
+        assert!(backlog.interrupted() && !backlog.interrupted(), "before a single one was obeyed, and once");
+        let waiting: Vec<Event> = events.try_iter().collect();
+        assert_eq!(waiting.len(), MOST + 1);
+        assert!(matches!(waiting.last(), Some(Event::Interrupted)));
+        let left_out: Vec<usize> = (0..MOST).map(|_| backlog.obeyed()).collect();
+        assert_eq!(left_out[..MOST - 1], [0; MOST - 1]);
+        assert_eq!(left_out[MOST - 1], 1_000_000 - MOST, "said when there is quiet");
+        entrance.take(Input::Key(Key::char('?')));
+        assert!(matches!(events.try_recv(), Ok(Event::Typed(_))), "there is room again");
+        assert_eq!(backlog.obeyed(), 0);
+    }
+}

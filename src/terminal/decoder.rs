@@ -1,0 +1,491 @@
+//! Bytes to inputs.
+//!
+//! The bytes fall into characters, control sequences, strings (whose payload is nobody's key) and pastes, as a terminal
+//! itself would take them apart. What was begun may be torn: after the escape time-out a lone escape counts as the key,
+//! and everything else as given up, but for a while longer what can only be the rest of it still belongs to it. Ctrl-C
+//! is the key wherever it comes, but in the midst of a paste that ends.
+
+use std::time::Duration;
+
+use super::{paste::Paste, sequence};
+use crate::app::{Code, Input, Key};
+
+/// A paste that does not go on for this long is over.
+const PASTE_PAUSE: Duration = Duration::from_secs(1);
+
+/// A string that does not go on for this long is given up, s: byte by byte is slow, but not as slow as that.
+const STRING_PAUSE: Duration = Duration::from_secs(2);
+
+/// The rest of a torn sequence is recognised for this long after the escape time-out.
+const REST: Duration = Duration::from_secs(1);
+
+/// Longest parameters that are kept, bytes; no key has as many.
+const PARAMETERS: usize = 64;
+
+const ESCAPE: u8 = 0x1b;
+pub(super) const CTRL_C: u8 = 0x03;
+const CANCEL: u8 = 0x18;
+const SUBSTITUTE: u8 = 0x1a;
+const BELL: u8 = 0x07;
+
+/// Bytes to inputs.
+pub(super) struct Decoder {
+    escape_time: Duration,
+    state: State,
+    /// Whether the escape time-out has passed since the last byte.
+    late: bool,
+    /// What has come of the bytes so far; the reader takes it.
+    pub(super) inputs: Vec<Input>,
+}
+
+/// What was begun.
+enum State {
+    Ground,
+    /// A character in UTF-8, after an escape or not, of which bytes are missing.
+    Character {
+        bytes: Vec<u8>,
+        alt: bool,
+    },
+    Escape,
+    /// After a late escape, or a late `ESC [`: this may be the next byte of its sequence, or a key.
+    Introducer(u8),
+    /// `ESC O`.
+    SingleShift,
+    /// `ESC [` and these parameters.
+    Control(Vec<u8>),
+    /// The characters of an old mouse report that are still to come.
+    Mouse(u8),
+    /// APC, PM, SOS, DCS or, which a bell ends too, OSC.
+    String {
+        bell: bool,
+    },
+    /// An escape in a string, which may end it.
+    StringEscape,
+    Paste(Paste),
+}
+
+impl Decoder {
+    /// A lone escape counts after `escape_time`.
+    pub(super) fn new(escape_time: Duration) -> Decoder {
+        Decoder { escape_time, state: State::Ground, late: false, inputs: Vec::new() }
+    }
+
+    /// How long silence means that more is to come; `None`: for ever, nothing is awaited.
+    pub(super) fn patience(&self) -> Option<Duration> {
+        match (&self.state, self.late) {
+            (State::Ground, _) => None,
+            (State::String { .. }, _) => Some(STRING_PAUSE),
+            (State::Paste(paste), _) if !paste.is_interrupted() => Some(PASTE_PAUSE),
+            (_, true) => Some(REST),
+            (_, false) => Some(self.escape_time),
+        }
+    }
+
+    /// Takes the next bytes.
+    pub(super) fn feed(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.take(*byte);
+            self.late &= matches!(self.state, State::Control(_)); // its beginning decides what may follow
+        }
+    }
+
+    /// Nothing came for as long as [`Decoder::patience`].
+    pub(super) fn silence(&mut self) {
+        let state = std::mem::replace(&mut self.state, State::Ground);
+        let late = std::mem::replace(&mut self.late, true);
+        match state {
+            State::Escape if !late => {
+                self.press(Key::plain(Code::Escape));
+                self.state = State::Escape;
+            }
+            // A bracket alone may be the key, but only what does not come shows it.
+            State::Introducer(b'[') if !late => self.state = State::Introducer(b'['),
+            State::Introducer(byte) => self.press(Key::char(byte.into())),
+            state @ (State::SingleShift | State::Control(_) | State::Mouse(_) | State::StringEscape) if !late => {
+                self.state = state;
+            }
+            State::Paste(paste) if paste.is_interrupted() => self.press(Key::ctrl('c')),
+            State::Paste(paste) => self.pasted(&paste),
+            _ => {}
+        }
+        self.late &= !matches!(self.state, State::Ground);
+    }
+
+    fn press(&mut self, key: Key) {
+        self.inputs.push(Input::Key(key));
+    }
+
+    fn pasted(&mut self, paste: &Paste) {
+        self.inputs.push(Input::Paste(paste.text()));
+    }
+
+    fn take(&mut self, byte: u8) {
+        let state = std::mem::replace(&mut self.state, State::Ground);
+        if let State::Paste(paste) = state {
+            return self.paste(paste, byte);
+        }
+        if byte == CTRL_C {
+            return self.interrupt(&state);
+        }
+        match state {
+            State::Ground | State::Paste(_) => self.begin(byte, false),
+            State::Character { bytes, alt } => self.character(bytes, alt, byte),
+            State::Escape => self.escape(byte),
+            State::Introducer(first) => self.introduce(first, byte),
+            State::SingleShift => self.single_shift(byte),
+            State::Control(parameters) => self.control(parameters, byte),
+            State::Mouse(_) if byte == ESCAPE => self.state = State::Escape,
+            State::Mouse(_) if self.late => self.begin(byte, false),
+            // A coordinate beyond 95 takes two bytes where the mouse speaks UTF-8.
+            State::Mouse(left) if (0x80..0xc0).contains(&byte) => self.state = State::Mouse(left),
+            State::Mouse(left) if left > 1 => self.state = State::Mouse(left - 1),
+            State::Mouse(_) => {}
+            State::String { bell } => self.string(bell, byte),
+            State::StringEscape if byte == b'\\' => {}
+            State::StringEscape => self.escape(byte),
+        }
+    }
+
+    /// Ctrl-C ends whatever was begun; an escape just before it was pressed.
+    fn interrupt(&mut self, begun: &State) {
+        match begun {
+            State::Escape if !self.late => self.press(Key::plain(Code::Escape)),
+            State::Introducer(byte) => self.press(Key::char((*byte).into())),
+            _ => {}
+        }
+        self.press(Key::ctrl('c'));
+    }
+
+    /// A byte with nothing begun before it, but perhaps an escape.
+    fn begin(&mut self, byte: u8, alt: bool) {
+        let control = |c: u8| Key { alt, ..Key::ctrl(c.into()) };
+        let plain = |code| Key { alt, ..Key::plain(code) };
+        let key = match byte {
+            ESCAPE => {
+                self.state = State::Escape;
+                return;
+            }
+            // What these control characters have always been.
+            b'\r' | b'\n' => plain(Code::Enter),
+            b'\t' => plain(Code::Tab),
+            0x08 | 0x7f => plain(Code::Backspace),
+            0x00 => control(b' '),
+            0x01..=0x1a => control(byte - 1 + b'a'),
+            0x1c..=0x1f => control(byte - 0x1c + b'4'),
+            b' '..=b'~' => Key { alt, ..Key::char(byte.into()) },
+            _ => return self.character(Vec::new(), alt, byte),
+        };
+        self.press(key);
+    }
+
+    fn character(&mut self, mut bytes: Vec<u8>, alt: bool, byte: u8) {
+        if !bytes.is_empty() && !(0x80..0xc0).contains(&byte) {
+            return self.begin(byte, false); // the rest never came
+        }
+        bytes.push(byte);
+        match str::from_utf8(&bytes) {
+            Ok(text) => text.chars().for_each(|c| self.press(Key { alt, ..Key::char(c) })),
+            Err(error) if error.error_len().is_none() => self.state = State::Character { bytes, alt },
+            Err(_) => {}
+        }
+    }
+
+    /// After an escape, or after one that has counted as the key already.
+    fn escape(&mut self, byte: u8) {
+        match byte {
+            ESCAPE => {
+                if !self.late {
+                    self.press(Key::plain(Code::Escape));
+                }
+                self.state = State::Escape;
+            }
+            b'[' | b'O' | b']' | b'P' | b'X' | b'^' | b'_' if self.late => self.state = State::Introducer(byte),
+            b'[' | b'O' | b']' | b'P' | b'X' | b'^' | b'_' => self.state = introduced(byte),
+            _ => self.begin(byte, !self.late),
+        }
+    }
+
+    /// After a late escape and `first`: one sequence in two pieces, or keys one after the other.
+    fn introduce(&mut self, first: u8, byte: u8) {
+        let one = match first {
+            b'[' => begins_a_key(byte) || !self.late && matches!(byte, b'<'..=b'?'),
+            b'O' => sequence::single_shift(byte).is_some(),
+            b']' | b'<'..=b'?' => byte.is_ascii_digit(),
+            b'P' => byte.is_ascii_digit() || b"$+>!|".contains(&byte),
+            _ => byte >= b' ',
+        };
+        if one {
+            self.state = introduced(first);
+            self.late = false;
+            return self.take(byte);
+        }
+        self.press(Key::char(first.into()));
+        self.begin(byte, false);
+    }
+
+    fn single_shift(&mut self, byte: u8) {
+        match sequence::single_shift(byte) {
+            Some(key) => self.press(key),
+            None if byte < b' ' || self.late => self.begin(byte, false),
+            None => {} // an unknown one
+        }
+    }
+
+    fn control(&mut self, mut parameters: Vec<u8>, byte: u8) {
+        let first = parameters.is_empty();
+        match byte {
+            b'<'..=b'?' if self.late && first => self.state = State::Introducer(byte),
+            _ if self.late && !may_follow_late(&parameters, byte) => self.begin(byte, false),
+            CANCEL | SUBSTITUTE => {}
+            b' '..=b'?' => {
+                if parameters.len() <= PARAMETERS {
+                    parameters.push(byte);
+                }
+                self.state = State::Control(parameters);
+            }
+            b'[' if first => self.state = State::Control(vec![byte]),
+            b'M' if first => self.state = State::Mouse(3),
+            b'~' if parameters == b"200" => self.state = State::Paste(Paste::default()),
+            b'@'..=b'~' if parameters.len() > PARAMETERS => {}
+            b'@'..=b'~' => self.inputs.extend(sequence::key(&parameters, byte).map(Input::Key)),
+            _ => self.begin(byte, false),
+        }
+    }
+
+    fn string(&mut self, bell: bool, byte: u8) {
+        self.state = match byte {
+            ESCAPE => State::StringEscape,
+            CANCEL | SUBSTITUTE => State::Ground,
+            BELL if bell => State::Ground,
+            _ => State::String { bell },
+        };
+    }
+
+    fn paste(&mut self, mut paste: Paste, byte: u8) {
+        if paste.ends_with(byte) {
+            return self.pasted(&paste);
+        }
+        if paste.is_interrupted_without_end() {
+            self.press(Key::ctrl('c'));
+        }
+        self.state = State::Paste(paste);
+    }
+}
+
+/// What `ESC byte` begins, or `ESC [ byte` where the byte is a private parameter.
+fn introduced(byte: u8) -> State {
+    match byte {
+        b'[' => State::Control(Vec::new()),
+        b'<'..=b'?' => State::Control(vec![byte]),
+        b'O' => State::SingleShift,
+        _ => State::String { bell: byte == b']' },
+    }
+}
+
+/// Whether `ESC [ byte` begins or is a key.
+fn begins_a_key(byte: u8) -> bool {
+    byte.is_ascii_digit() || sequence::key(b"", byte).is_some()
+}
+
+/// Whether a byte that comes late can only belong to the control sequence with these parameters, of known keys and
+/// replies; any other byte is a key, and the sequence is given up.
+fn may_follow_late(parameters: &[u8], byte: u8) -> bool {
+    match parameters.first() {
+        None => begins_a_key(byte),
+        Some(b'[') => matches!(byte, b'A'..=b'E'),
+        Some(b'<') if matches!(byte, b'M' | b'm') => true,
+        Some(_) => byte.is_ascii_digit() || b";$ABCDFHPQRSZ~cntuy".contains(&byte),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::paste::{ENDS, KEPT},
+        *,
+    };
+    use proptest::{prelude::ProptestConfig, test_runner::RngSeed};
+
+    /// A decoder fed piece by piece, with silence as long as the escape time-out between.
+    fn torn(pieces: &[&[u8]]) -> Decoder {
+        let mut decoder = Decoder::new(Duration::from_millis(25));
+        for (i, piece) in pieces.iter().enumerate() {
+            if i > 0 && decoder.patience().is_some_and(|patience| patience <= decoder.escape_time) {
+                decoder.silence();
+            }
+            decoder.feed(piece);
+        }
+        decoder
+    }
+
+    /// What comes of it when there is silence after that.
+    fn end(mut decoder: Decoder) -> Vec<Input> {
+        while decoder.patience().is_some() {
+            decoder.silence();
+        }
+        decoder.inputs
+    }
+
+    fn decode(bytes: &[u8]) -> Vec<Input> {
+        end(torn(&[bytes]))
+    }
+
+    fn bytewise(bytes: &[u8]) -> Vec<Input> {
+        end(torn(&bytes.chunks(1).collect::<Vec<_>>()))
+    }
+
+    fn keys(keys: &[Key]) -> Vec<Input> {
+        keys.iter().copied().map(Input::Key).collect()
+    }
+
+    const ESC: Key = Key::plain(Code::Escape);
+    const RIGHT: Key = Key::plain(Code::Right);
+
+    #[test]
+    fn keys_arrive_as_the_key_table_names_them() {
+        let expected = [
+            Key::char('R'),
+            Key::char(' '),
+            Key::ctrl('c'),
+            Key::shift(Code::Tab),
+            Key::shift(Code::Left),
+            Key::plain(Code::F(1)),
+            Key::plain(Code::Home),
+            Key::plain(Code::Enter),
+            Key::char('é'),
+        ];
+        assert_eq!(decode("R \x03\x1b[Z\x1b[1;2D\x1bOP\x1b[H\ré".as_bytes()), keys(&expected));
+        assert_eq!(decode("\x1bq\x1bé".as_bytes()), keys(&['q', 'é'].map(|c| Key { alt: true, ..Key::char(c) })));
+        assert_eq!(decode(b"\x1b\x1b[A"), keys(&[ESC, Key::plain(Code::Up)]));
+    }
+
+    #[test]
+    fn a_torn_key_is_that_key_wherever_it_is_torn() {
+        assert_eq!(end(torn(&[b"\x1b[", b"C"])), keys(&[RIGHT]));
+        assert_eq!(end(torn(&[b"\x1b[1;", b"2D"])), keys(&[Key::shift(Code::Left)]));
+        assert_eq!(end(torn(&[b"\x1b[1;2", b"D"])), keys(&[Key::shift(Code::Left)]));
+        assert_eq!(end(torn(&[b"\x1bO", b"P"])), keys(&[Key::plain(Code::F(1))]));
+        assert_eq!(end(torn(&[b"\xc3", b"\xa9q"])), keys(&[Key::char('q')]), "half a character is none");
+        // After a lone escape the time-out has made a key of it already.
+        for bytes in [&b"\x1b[C"[..], b"\x1b[1C", b"\x1b[1;1C"] {
+            assert_eq!(bytewise(bytes), keys(&[ESC, RIGHT]), "{bytes:?}");
+            assert_eq!(end(torn(&[&bytes[..1], &bytes[1..]])), keys(&[ESC, RIGHT]), "{bytes:?}");
+        }
+        assert_eq!(end(torn(&[b"\x1b", b"OC"])), keys(&[ESC, RIGHT]));
+    }
+
+    #[test]
+    fn keys_after_an_escape_or_a_torn_sequence_are_keys() {
+        assert_eq!(decode(b"\x1b"), keys(&[ESC]));
+        assert_eq!(end(torn(&[b"\x1b", b"["])), keys(&[ESC, Key::char('[')]), "late, but it comes");
+        for key in "]OPX_^qoC?:".chars() {
+            let mut bytes = [0; 4];
+            let typed = key.encode_utf8(&mut bytes).as_bytes();
+            assert_eq!(end(torn(&[b"\x1b", typed])), keys(&[ESC, Key::char(key)]), "Esc {key}");
+            assert_eq!(end(torn(&[b"\x1b", b"[", typed])).len(), if "CP".contains(key) { 2 } else { 3 }, "Esc [ {key}");
+        }
+        for begun in ["\x1b[", "\x1b[?9", "\x1b[12", "\x1b[1;", "\x1bO", "\x1bX\x1b", "\x1b[M "] {
+            for key in "?qo: ]".chars() {
+                let mut bytes = [0; 4];
+                let typed = key.encode_utf8(&mut bytes).as_bytes();
+                assert_eq!(end(torn(&[begun.as_bytes(), typed])), keys(&[Key::char(key)]), "{begun:?} {key}");
+            }
+        }
+    }
+
+    #[test]
+    fn strings_and_replies_press_no_key_at_once_and_byte_by_byte() {
+        let strings =
+            ["\x1bXq\x1b\\", "\x1b_q:q\x1b\\", "\x1b^q\x1b\\", "\x1bPq\x18", "\x1bP1$rq\x1b\\", "\x1bXq\x07q\x1a"];
+        assert_eq!(decode(b"\x1b]0;\x1b]0;q\x07?"), keys(&[Key::char('?')]), "one string cut off by another");
+        let more = ["\x1b]11;rgb:00/00/00\x07", "\x1b]q\x1b\\", "\x1bXé\u{9c}q\x1b\\"];
+        for string in strings.iter().chain(&more) {
+            for after in ["", "?"] {
+                let expected = keys(&after.chars().map(Key::char).collect::<Vec<_>>());
+                let bytes = [string.as_bytes(), after.as_bytes()].concat();
+                assert_eq!(decode(&bytes), expected, "{string:?}");
+                let (begun, payload) = bytes.split_at(2);
+                let pieces: Vec<&[u8]> = std::iter::once(begun).chain(payload.chunks(1)).collect();
+                assert_eq!(end(torn(&pieces)), expected, "{string:?} byte by byte");
+            }
+        }
+        for reply in
+            ["\x1b[?2026;2$y", "\x1b[0n", "\x1b[?62;22c", "\x1b[99z", "\x1b[24;80R", "\x1b[Mq!!", "\x1b[<0;1;1M"]
+        {
+            assert_eq!(decode(format!("{reply}?").as_bytes()), keys(&[Key::char('?')]), "{reply:?}");
+            for at in 2..reply.len() {
+                let (begun, rest) = reply.as_bytes().split_at(at);
+                let known = !matches!(*reply.as_bytes().last().unwrap_or(&0), b'z' | b'!');
+                assert!(!known || end(torn(&[begun, rest])).is_empty(), "{reply:?} torn at {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_escape_or_silence_gives_an_endless_string_up() {
+        let mut decoder = torn(&[b"\x1bXabc", b"\x1b", b"q"]);
+        assert_eq!(decoder.inputs, keys(&[Key::char('q')]));
+        decoder.feed(b"\x1b_abc");
+        assert_eq!(decoder.patience(), Some(STRING_PAUSE));
+        decoder.silence();
+        decoder.feed(b"r");
+        assert_eq!(decoder.inputs, keys(&[Key::char('q'), Key::char('r')]));
+    }
+
+    #[test]
+    fn ctrl_c_is_pressed_whatever_was_begun() {
+        let begun = [
+            "",
+            "\x1b",
+            "\x1b[",
+            "\x1b[1;",
+            "\x1bO",
+            "\x1bX",
+            "\x1bPq",
+            "\x1b]0;",
+            "\x1b]0;\x1b",
+            "\x1b[M",
+            "\u{e9}",
+            "\x1b[200~q",
+        ];
+        for begun in begun.iter().map(|begun| begun.as_bytes()).chain([&b"\xc3"[..], b"\x1b[200~q\x1b[20"]) {
+            assert_eq!(decode(&[begun, b"\x03"].concat()).last(), Some(&Input::Key(Key::ctrl('c'))), "{begun:?}");
+            assert_eq!(end(torn(&[begun, b"\x03"])).last(), Some(&Input::Key(Key::ctrl('c'))), "{begun:?} torn");
+        }
+        let flood = [b"\x1b[200~q\x03", &[b'x'; 2 * KEPT][..]].concat();
+        assert_eq!(torn(&[&flood]).inputs, keys(&[Key::ctrl('c')]), "without a pause in a paste that does not end");
+    }
+
+    #[test]
+    fn a_paste_is_one_input_whatever_is_in_it() {
+        let expected = vec![Input::Paste("q\u{1b}[20x\u{3}y".into()), Input::Key(Key::char('r'))];
+        assert_eq!(decode(b"\x1b[200~q\x1b[20x\x03y\x1b[201~r"), expected);
+        let huge = [b"\x1b[200~", &[b'x'; 3 * KEPT][..], ENDS].concat();
+        assert_eq!(decode(&huge), [Input::Paste("x".repeat(KEPT))]);
+    }
+
+    proptest::proptest! {
+        #![proptest_config(ProptestConfig { rng_seed: RngSeed::Fixed(5), failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn no_bytes_make_it_panic_or_wait_for_ever(bytes: Vec<u8>) {
+            decode(&bytes);
+            bytewise(&bytes);
+        }
+
+        #[test]
+        fn no_sequence_makes_it_panic(tail in "[\\[\\]OP][0-9;:<>?A-Za-z~$ ]{0,12}") {
+            decode(format!("\x1b{tail}").as_bytes());
+        }
+
+        #[test]
+        fn no_private_sequence_presses_a_key(middle in "[<=>?][0-9;:]{0,80}[ $\"'!]{0,2}", last in "[@-~]") {
+            proptest::prop_assert_eq!(decode(format!("\x1b[{middle}{last}").as_bytes()), []);
+        }
+
+        #[test]
+        fn no_payload_presses_a_key(kind in "[PX^_\\]]", payload in "[ -~é]{0,40}", last in "\x1b\\\\|\x18|\x1a") {
+            proptest::prop_assert_eq!(decode(format!("\x1b{kind}{payload}{last}").as_bytes()), []);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! A box for one letter: the sender never waits and replaces a letter that has not been read, so that a reader that
+//! gets little of the processor costs the memory of one letter and no more.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// A new, empty box.
+pub(super) fn mailbox<T>() -> (Sender<T>, Reader<T>) {
+    let shared =
+        Arc::new(Shared { content: Mutex::new(Content { letter: None, open: true }), changed: Condvar::new() });
+    (Sender(Arc::clone(&shared)), Reader(shared))
+}
+
+/// The sending end. Dropping it closes the box.
+pub(super) struct Sender<T>(Arc<Shared<T>>);
+
+/// The reading end.
+pub(super) struct Reader<T>(Arc<Shared<T>>);
+
+/// The sender is gone; a letter it may have left is of no more use.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Closed;
+
+struct Shared<T> {
+    content: Mutex<Content<T>>,
+    changed: Condvar,
+}
+
+struct Content<T> {
+    letter: Option<T>,
+    open: bool,
+}
+
+impl<T> Sender<T> {
+    /// Puts a letter in place of the one that waits, if one does.
+    pub(super) fn put(&self, letter: T) {
+        let replaced = self.0.lock().letter.replace(letter);
+        self.0.changed.notify_one();
+        drop(replaced); // without the lock: a large letter takes its time
+    }
+}
+
+impl<T> Drop for Sender<T> {
+    fn drop(&mut self) {
+        self.0.lock().open = false;
+        self.0.changed.notify_one();
+    }
+}
+
+impl<T> Reader<T> {
+    /// The letter, if one waits.
+    ///
+    /// # Errors
+    /// If the sender is gone.
+    pub(super) fn look(&self) -> Result<Option<T>, Closed> {
+        let mut content = self.0.lock();
+        if content.open { Ok(content.letter.take()) } else { Err(Closed) }
+    }
+
+    /// Waits for a letter.
+    ///
+    /// # Errors
+    /// If the sender is gone.
+    pub(super) fn wait(&self) -> Result<T, Closed> {
+        let content = self.0.lock();
+        let empty = |content: &mut Content<T>| content.open && content.letter.is_none();
+        let mut content = self.0.changed.wait_while(content, empty).unwrap_or_else(PoisonError::into_inner);
+        content.letter.take().filter(|_| content.open).ok_or(Closed)
+    }
+}
+
+impl<T> Shared<T> {
+    fn lock(&self) -> MutexGuard<'_, Content<T>> {
+        self.content.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reader_that_never_reads_costs_one_letter() {
+        let (sender, reader) = mailbox();
+        let letter = Arc::new(());
+        for _ in 0..100_000 {
+            sender.put(Arc::clone(&letter));
+        }
+        assert_eq!(Arc::strong_count(&letter), 2, "ours and the one in the box");
+        assert!(reader.look().is_ok_and(|letter| letter.is_some()));
+        assert_eq!(Arc::strong_count(&letter), 1);
+    }
+
+    #[test]
+    fn the_newest_letter_is_read_once_and_none_after_the_sender_has_gone() {
+        let (sender, reader) = mailbox();
+        assert_eq!(reader.look(), Ok(None));
+        sender.put(1);
+        sender.put(2);
+        assert_eq!(reader.look(), Ok(Some(2)));
+        assert_eq!(reader.look(), Ok(None));
+        sender.put(3);
+        drop(sender);
+        assert_eq!(reader.look(), Err(Closed));
+        assert_eq!(reader.wait(), Err(Closed));
+    }
+
+    #[test]
+    fn a_waiting_reader_wakes_for_a_letter_and_for_the_end() {
+        let (sender, reader) = mailbox();
+        let (told, read) = std::sync::mpsc::channel();
+        let thread = std::thread::spawn(move || {
+            while let Ok(letter) = reader.wait() {
+                told.send(letter).expect("the test reads");
+            }
+        });
+        sender.put('a');
+        assert_eq!(read.recv(), Ok('a'));
+        sender.put('b');
+        assert_eq!(read.recv(), Ok('b'));
+        drop(sender);
+        thread.join().expect("it ends");
+    }
+}
