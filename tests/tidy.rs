@@ -21,6 +21,7 @@ const PLAN: &[(&str, &[&str])] = &[
             "geometry",
             "measure",
             "physics",
+            "printable",
             "scene",
             "snapshot",
             "terminal",
@@ -29,19 +30,20 @@ const PLAN: &[(&str, &[&str])] = &[
             "worker",
         ],
     ),
-    ("terminal", &["app", "frame", "physics", "scene", "view"]),
-    ("app", &["frame", "geometry", "physics", "scene", "snapshot", "view", "worker"]),
+    ("terminal", &["app", "frame", "physics", "printable", "scene", "view"]),
+    ("app", &["frame", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
     ("worker", &["measure", "physics", "scene", "snapshot"]),
     ("view", &["geometry", "snapshot"]),
-    ("frame", &[]),
-    ("measure", &["export", "geometry", "physics", "scene"]),
+    ("frame", &["printable"]),
+    ("measure", &["export", "geometry", "physics", "printable", "scene"]),
     ("text_mode", &["export", "physics", "scene"]),
-    ("export", &["physics"]),
-    ("snapshot", &["geometry", "physics", "scene"]),
+    ("export", &["physics", "printable"]),
+    ("snapshot", &["geometry", "physics", "printable", "scene"]),
     ("physics", &["geometry", "roots", "scene"]),
-    ("scene", &["geometry"]),
+    ("scene", &["geometry", "printable"]),
     ("geometry", &[]),
     ("roots", &[]),
+    ("printable", &[]),
 ];
 
 /// The methods: folders or files of the physics that only its door may name.
@@ -61,6 +63,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("clap_complete", &["cli"]),
     ("clap_mangen", &["cli"]),
     ("indicatif", &["cli"]),
+    ("unicode_properties", &["printable"]),
 ];
 
 /// Parts of the standard library by which the outer world would enter.

@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     physics::Settings,
+    printable,
     scene::{self, Opened},
     view,
     worker::{Activity, Command},
@@ -66,7 +67,7 @@ impl App {
         if !typing {
             return Effect::Nothing;
         }
-        for c in text.chars().filter(|c| !c.is_control()).take(PROMPT) {
+        for c in text.chars().filter(|c| printable::is_printable(*c)).take(PROMPT) {
             let _ = self.key(Key::char(c));
         }
         Effect::DrawNow
@@ -176,7 +177,7 @@ impl App {
         if self.current.path.is_none() {
             return self.say(format!("{} is built in: there is no file to reload.", self.current.name));
         }
-        match scene::open(&self.current.name) {
+        match scene::open(self.current.source()) {
             Ok(opened) => {
                 let settings = knobs::reloaded(self.settings, self.current.scene.solver, opened.scene.solver);
                 self.load(opened, settings);
@@ -188,7 +189,10 @@ impl App {
 
     /// Opens another scene; if it does not load, the old run goes on.
     fn open_scene(&mut self, name: &str) {
-        match scene::open(name) {
+        // The file that the program was started with may have a name that can't be shown as it is.
+        let given = self.given.as_ref().filter(|(entry, _)| entry.name == name);
+        let opened = given.map_or_else(|| scene::open(name), |(_, path)| scene::open(path));
+        match opened {
             Ok(opened) => {
                 let settings = opened.scene.solver;
                 self.load(opened, settings);
@@ -233,14 +237,14 @@ impl App {
 
     /// Says what of the scene is allowed but hardly meant.
     pub(super) fn warn(&mut self) {
-        let warnings = scene::warnings(&self.current.scene, self.settings);
+        let warnings = scene::warnings(&self.current.scene, self.settings, self.current.scene.duration);
         if !warnings.is_empty() {
             self.say(format!("Note: {}.", warnings.join("; ")));
         }
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
-        let given = self.given.iter().map(|entry| entry.name.clone());
+        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
         let names: Vec<String> = given.chain(scene_list::built_in_names().map(str::to_owned)).collect();
         let at = names.iter().position(|name| *name == self.current.name);
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
@@ -249,7 +253,7 @@ impl App {
 
     /// The scenes there are: the file the program was started with, then the built-in ones.
     fn entries(&self) -> Vec<scene_list::Entry> {
-        self.given.iter().cloned().chain(scene_list::built_in()).collect()
+        self.given.iter().map(|(entry, _)| entry.clone()).chain(scene_list::built_in()).collect()
     }
 
     fn solve_with(&mut self, settings: Result<Settings, String>) {

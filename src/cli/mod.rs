@@ -7,6 +7,8 @@
 //! | `failure` | how a command can end, its exit code and its one line |
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
+//! | `place` | which file a word leads to, and that no output destroys another or an input |
+//! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
 
@@ -21,8 +23,10 @@ mod measure;
 mod methods;
 mod numbers;
 mod output;
+mod place;
 mod play;
 mod render;
+mod rows;
 mod run;
 mod show;
 mod signals;

@@ -8,6 +8,7 @@ use super::sweep::Yardstick;
 use super::trade::STALLED;
 use crate::export::TradeRow;
 use crate::physics::Method;
+use crate::printable;
 
 /// Growth from which positions are worse than rounding by so much that a reader should know.
 const GROWN: f64 = 100.0;
@@ -113,9 +114,20 @@ pub(super) fn duration(seconds: f64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
+/// Times from here on, s, are written with an exponent.
+const FIXED: f64 = 1e9;
+
+/// A time in s with four decimals.
+pub(super) fn decimal(seconds: f64) -> String {
+    if seconds < FIXED { format!("{seconds:.4}") } else { printable::rounded(seconds) }
+}
+
 /// A time in s with at most four decimals.
 pub(super) fn plain(seconds: f64) -> String {
-    let text = format!("{seconds:.4}");
+    let text = decimal(seconds);
+    if seconds >= FIXED {
+        return text;
+    }
     text.trim_end_matches('0').trim_end_matches('.').into()
 }
 
