@@ -23,7 +23,7 @@ pub(super) fn refuse_overlaps(
     let tree = Tree::new(&boxes);
     let partner = |a: usize| {
         let hit = |b: usize| b > a && pair_depth(&all[a], &all[b]).is_some();
-        tree.first(effort, |bounds| bounds.touches(&boxes[a]), hit).map(|b| (a, b))
+        tree.first(|bounds| bounds.touches(&boxes[a]), hit).map(|b| (a, b))
     };
     let refuse = |(a, later): (usize, usize), other: String, depth: Option<f64>| {
         let (one, depth) = (spheres.describe(a), show_rounded(depth.unwrap_or(0.0)));
@@ -34,8 +34,8 @@ pub(super) fn refuse_overlaps(
         return Err(refuse((a, b), spheres.describe(b), pair_depth(&all[a], &all[b])));
     }
     let overlapped = |(index, wall): (usize, &Wall)| {
-        let hit = |a: usize| wall_depth(&all[a], wall).is_some();
-        tree.first(effort, |bounds| effort.spend(SLANTED) && wall.shape.may_touch(bounds), hit).map(|a| (a, index))
+        let hit = |a: usize| effort.spend(SLANTED) && wall_depth(&all[a], wall).is_some();
+        tree.first(|bounds| effort.spend(SLANTED) && wall.shape.may_touch(bounds), hit).map(|a| (a, index))
     };
     if let Some((a, wall)) = walls.list.iter().enumerate().find_map(overlapped) {
         return Err(refuse((a, a), walls.describe(wall), wall_depth(&all[a], &walls.list[wall])));

@@ -11,6 +11,9 @@ use std::{
     time::Duration,
 };
 
+#[path = "watch.rs"]
+pub(crate) mod watch;
+
 use portable_pty::{CommandBuilder, MasterPty, PtySize, SlavePty, native_pty_system};
 use rustix::process::{Pid, Signal, kill_process};
 
@@ -42,6 +45,8 @@ pub(crate) struct Pty {
     exit: Receiver<u32>,
     pid: Pid,
     emulator: vt100::Parser,
+    /// Kills it if a test goes on for ever, reading what it goes on writing.
+    watch: watch::Watch,
     /// Everything the program has written.
     pub(crate) output: Vec<u8>,
 }
@@ -78,6 +83,7 @@ impl Start<'_> {
             exit,
             pid,
             emulator: vt100::Parser::new(at_least_one(rows), at_least_one(cols), 0),
+            watch: watch::Watch::over(pid),
             output: Vec::new(),
         }
     }
@@ -113,6 +119,7 @@ impl Pty {
         self.asked = answer == Err(RecvTimeoutError::Timeout);
         let bytes = answer.ok()?;
         self.output.extend(&bytes);
+        assert!(self.output.len() as u64 <= watch::MOST, "it writes without end; the screen:\n{}", self.text());
         self.emulator.process(&bytes);
         Some(bytes)
     }
@@ -187,7 +194,7 @@ impl Pty {
         while self.asked {
             drop(self.read(PATIENCE));
         }
-        let Pty { master, slave, writer, requests, answers, exit, .. } = self;
+        let Pty { master, slave, writer, requests, answers, exit, watch: _watch, .. } = self;
         drop((master, slave, writer, requests, answers));
         exit.recv_timeout(PATIENCE).expect("the program ends with its terminal")
     }
