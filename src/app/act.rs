@@ -231,7 +231,7 @@ impl App {
     fn compare(&mut self) {
         match Comparison::start(&self.current, &self.report, Arc::clone(&self.notify)) {
             Ok(comparison) => self.comparison = Some(comparison),
-            Err(error) => self.say(format!("The exact run cannot start: {error}.")),
+            Err(error) => self.say(format!("The exact run cannot start: {}.", printable::cause(&error))),
         }
     }
 

@@ -96,7 +96,6 @@ fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
 /// What no measure writes, but a file may hold: numbers that are none or negative, text that a terminal would obey.
 fn improper(row: &TradeRow) -> Option<String> {
     let numbers = [
-        ("dt", row.dt),
         ("tolerance", row.tolerance),
         ("until", Some(row.until)),
         ("horizon", row.horizon),
@@ -106,12 +105,12 @@ fn improper(row: &TradeRow) -> Option<String> {
         ("cpu_per_s", row.cpu_per_s),
         ("cpu_spread", row.cpu_spread),
     ];
+    if let Some(dt) = row.dt.filter(|dt| !dt.is_finite() || *dt <= 0.0) {
+        return Some(format!("dt is {dt:?}; wanted is a finite number above 0"));
+    }
     let fine = |value: f64| value.is_finite() && value >= 0.0;
     if let Some((column, value)) = numbers.iter().find(|(_, value)| value.is_some_and(|value| !fine(value))) {
         return Some(format!("{column} is {:?}; wanted is a finite number from 0", value.unwrap_or(f64::NAN)));
-    }
-    if row.dt == Some(0.0) {
-        return Some("dt is 0.0; wanted is a finite number above 0".into());
     }
     if !row.deepest_degree.is_finite() {
         return Some(format!("deepest_degree is {:?}; wanted is a finite number", row.deepest_degree));

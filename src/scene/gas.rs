@@ -241,8 +241,8 @@ impl<'a> Field<'a> {
         // A box as thin as the spheres leaves only places that touch: rounding must not close them.
         let r = self.r * (1.0 - TOUCH);
         let reaching = &self.reaching[self.cell_of(center)];
-        let walls = reaching.partition_point(|&index| (index as usize) < self.obstacles.walls.len());
-        self.obstacles.effort.spend(1 + reaching.len() as u64 + SLANTED * walls as u64);
+        let slanted = reaching.partition_point(|&index| (index as usize) < self.obstacles.walls.len());
+        self.obstacles.effort.spend(1 + reaching.len() as u64 + SLANTED * slanted as u64);
         reaching.iter().all(|&index| match walls.get(index as usize) {
             Some(wall) => wall.distance(center) >= r,
             None => {
