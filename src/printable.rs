@@ -1,6 +1,7 @@
 //! What may be printed. Text from outside (names of files, values of options, scenes, the argument parser's messages)
 //! passes through here before it reaches a terminal, a table or a picture, and nowhere else is it decided.
 
+use std::error::Error;
 use std::ffi::OsStr;
 use std::fmt::Write;
 use std::io;
@@ -109,7 +110,8 @@ pub fn number(value: f64) -> String {
 
 /// A measured number in a message, to four digits.
 pub fn rounded(value: f64) -> String {
-    number(format!("{value:.3e}").parse().unwrap_or(value))
+    let text = format!("{value:.3e}");
+    text.parse().ok().filter(|value: &f64| value.is_finite()).map_or(text, number)
 }
 
 /// A number of things, however many: to four digits, and in words where it is beyond all numbers.
@@ -123,7 +125,11 @@ pub fn count(things: f64) -> String {
 
 /// The system's words for what went wrong, without Rust's `(os error N)`: one form for every message.
 pub fn cause(error: &io::Error) -> String {
-    let text = error.to_string();
+    // Libraries wrap the system's error in words of their own (a path that nobody has named, say).
+    let outermost: &dyn Error = error;
+    let mut chain = std::iter::successors(Some(outermost), |error| error.source());
+    let system = chain.find_map(|error| error.downcast_ref::<io::Error>().filter(|it| it.raw_os_error().is_some()));
+    let text = system.unwrap_or(error).to_string();
     let numbered = text.rsplit_once(" (os error ").filter(|(_, number)| number.ends_with(')'));
     escaped(numbered.map_or(text.as_str(), |(words, _)| words))
 }
@@ -217,7 +223,7 @@ mod tests {
     fn numbers_read_as_people_write_them() {
         let shown = [0.0, -1.0, 0.1, 1e300, 1e-9, f64::INFINITY, f64::NAN].map(number);
         assert_eq!(shown, ["0", "-1", "0.1", "1e300", "1e-9", "inf", "NaN"]);
-        assert_eq!(rounded(0.123_456), "0.1235");
+        assert_eq!([0.123_456, f64::MAX].map(rounded), ["0.1235", "1.798e308"]);
         let counted = [6.0, 2e10, 123_456_789.0, f64::INFINITY].map(count);
         assert_eq!(counted, ["6", "2e10", "1.235e8", "more than 1e308"]);
     }
@@ -225,5 +231,8 @@ mod tests {
     #[test]
     fn system_errors_come_without_their_number() {
         assert_eq!(cause(&io::Error::from_raw_os_error(2)), "No such file or directory");
+        let wrapped = tempfile::tempfile_in("/no/such/folder/at/all").expect_err("there is none");
+        assert_eq!(cause(&wrapped), "No such file or directory");
+        assert_eq!(cause(&io::Error::other("our own words")), "our own words");
     }
 }

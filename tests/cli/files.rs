@@ -14,7 +14,7 @@ use crate::program::{self, Ran, carom, folder, in_folder, names_in, piped, spawn
 const LONG: [&str; 7] = ["run", "paper-0", "--until", "1e6", "--every", "1e-4", "--yes"];
 
 /// What is said first of a run of so many rows.
-const MANY: &[u8] = b"carom: --every 1e-4 writes 1e10 rows of states\n";
+const MANY: &[u8] = b"carom: --every 0.0001 writes 1e10 rows of states\n";
 
 #[test]
 fn a_file_is_replaced_with_its_permissions_and_nothing_is_left_beside_it() {
