@@ -126,8 +126,8 @@ pub fn count(things: f64) -> String {
 /// The system's words for what went wrong, without Rust's `(os error N)`: one form for every message.
 pub fn cause(error: &io::Error) -> String {
     // Libraries wrap the system's error in words of their own (a path that nobody has named, say).
-    let outermost: &dyn Error = error;
-    let mut chain = std::iter::successors(Some(outermost), |error| error.source());
+    let outermost: &(dyn Error + 'static) = error;
+    let mut chain = std::iter::successors(Some(outermost), |&error| error.source());
     let system = chain.find_map(|error| error.downcast_ref::<io::Error>().filter(|it| it.raw_os_error().is_some()));
     let text = system.unwrap_or(error).to_string();
     let numbered = text.rsplit_once(" (os error ").filter(|(_, number)| number.ends_with(')'));
