@@ -162,9 +162,15 @@ fn replacement(path: &Path, found: Option<&Metadata>) -> io::Result<Sink> {
         return Err(Errno::ISDIR.into());
     }
     let ordinary = fs::Permissions::from_mode(0o666); // less the umask, as any new file
-    let file = Builder::new().prefix(".carom-").permissions(ordinary).tempfile_in(folder(path))?;
+    let file = Builder::new().prefix(".carom-").permissions(ordinary).tempfile_in(folder(path)).map_err(unwrapped)?;
     if let Some(found) = found {
         file.as_file().set_permissions(found.permissions())?;
     }
     Ok(Sink::Replacement(file, path.to_path_buf()))
+}
+
+/// The system's own words: tempfile adds the path of its file, which nobody has named.
+fn unwrapped(error: io::Error) -> io::Error {
+    let text = error.to_string();
+    io::Error::new(error.kind(), text.split(" (os error ").next().unwrap_or(&text).to_owned())
 }
