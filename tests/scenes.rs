@@ -362,7 +362,7 @@ fn a_built_in_name_wins_and_an_unknown_one_hears_of_its_neighbours() {
 fn what_is_no_scene_file_is_refused_without_reading_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let said = |name: &str| scene::open(&path(name)).expect_err("it is refused").to_string();
+    let said = |name: &str| scene::open(path(name)).expect_err("it is refused").to_string();
     assert!(said(".").ends_with("it is a folder; allowed is a scene file"));
     let large = fs::File::create(path("large.ron")).expect("writable");
     large.set_len((16 << 20) + 1).expect("sparse");
@@ -370,7 +370,7 @@ fn what_is_no_scene_file_is_refused_without_reading_it() {
     fs::write(path("bytes.ron"), b"Scene(\n  name: \"\xff\")").expect("writable");
     assert!(said("bytes.ron").ends_with("bytes.ron:2:10: the byte 0xff is refused; allowed is text in UTF-8"));
     fs::write(path("my scene\u{1b}.ron"), "\u{feff}Scene()").expect("writable");
-    let opened = scene::open(&path("my scene\u{1b}.ron")).expect("a byte order mark is no fault");
+    let opened = scene::open(path("my scene\u{1b}.ron")).expect("a byte order mark is no fault");
     assert_eq!((opened.key.as_str(), opened.scene.name.as_str()), ("my scene\\u{1b}", "my scene\\u{1b}"));
 }
 
