@@ -12,6 +12,8 @@ mod program;
 mod runs;
 #[path = "cli/text.rs"]
 mod text;
+#[path = "support/watch.rs"]
+mod watch;
 
 use std::fs;
 
@@ -221,7 +223,7 @@ fn text_mode_tells_each_event_in_a_line_and_the_end() {
 
 #[test]
 fn a_dumb_terminal_gets_text_mode() {
-    let dumb = program::watch::output(program::command(&["paper-1"]).env("TERM", "dumb"));
+    let dumb = watch::output(program::command(&["paper-1"]).env("TERM", "dumb"));
     assert_eq!(Ran::from(dumb).succeeds().out, carom(&["--text", "paper-1"]).succeeds().out);
 }
 

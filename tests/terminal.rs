@@ -2,6 +2,8 @@
 
 #[path = "support/pty.rs"]
 mod pty;
+#[path = "support/watch.rs"]
+mod watch;
 
 use std::time::Duration;
 
@@ -269,7 +271,7 @@ fn with_no_color_set_there_is_none() {
 #[test]
 fn without_a_terminal_one_line_says_what_to_use_instead() {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_carom"));
-    let output = pty::watch::output(command.args(["paper-0"]).env("TERM", "xterm").stdin(std::process::Stdio::null()));
+    let output = watch::output(command.args(["paper-0"]).env("TERM", "xterm").stdin(std::process::Stdio::null()));
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
     let said = String::from_utf8(output.stderr).expect("text");

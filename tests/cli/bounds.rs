@@ -6,8 +6,8 @@ use std::process::{Child, Command};
 
 use rustix::process::{Pid, Signal, kill_process};
 
-use crate::program::watch::{Watch, finish};
 use crate::program::{Ran, carom, folder, in_folder, piped, spawn};
+use crate::watch::{Watch, finish};
 
 /// The first line on stderr of a run that would not end; the run is then ended.
 fn first_words(mut child: Child) -> String {

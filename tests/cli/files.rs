@@ -7,8 +7,8 @@ use std::process::Stdio;
 
 use rustix::process::{Pid, Signal, kill_process};
 
-use crate::program::watch::{Watch, finish, finish_reading};
 use crate::program::{self, Ran, carom, folder, in_folder, names_in, piped, spawn};
+use crate::watch::{Watch, finish, finish_reading};
 
 /// Long enough for a pipe to be full many times over, whatever the machine.
 const LONG: [&str; 7] = ["run", "paper-0", "--until", "1e6", "--every", "1e-4", "--yes"];

@@ -7,8 +7,8 @@ use std::process::Stdio;
 
 use tempfile::TempDir;
 
-use crate::program::watch::finish;
 use crate::program::{self, Ran, carom, closing, folder, in_folder, names_in};
+use crate::watch::finish;
 
 /// A measure that takes no time.
 const QUICK: [&str; 5] = ["measure", "paper-0", "--methods=paper", "--dt=1e-1", "--tolerances=1e-3"];

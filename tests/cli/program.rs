@@ -5,8 +5,7 @@ use std::process::{Child, Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-#[path = "../support/watch.rs"]
-pub(crate) mod watch;
+use crate::watch;
 
 /// What a run of the binary left.
 #[derive(Debug)]

@@ -4,7 +4,8 @@ use std::ffi::OsString;
 use std::fs;
 use std::os::unix::ffi::OsStringExt;
 
-use crate::program::{self, Ran, carom, folder, in_folder, watch};
+use crate::program::{self, Ran, carom, folder, in_folder};
+use crate::watch;
 
 /// Every kind of character that a terminal obeys, hides or turns: controls, bidirectional and joining marks, soft
 /// hyphen, separators, format characters of scripts, tags, fillers, selectors, private use, what Unicode does not know.

@@ -11,11 +11,10 @@ use std::{
     time::Duration,
 };
 
-#[path = "watch.rs"]
-pub(crate) mod watch;
-
 use portable_pty::{CommandBuilder, MasterPty, PtySize, SlavePty, native_pty_system};
 use rustix::process::{Pid, Signal, kill_process};
+
+use crate::watch;
 
 /// Longest wait for anything that must happen: generous, because it only ends a test that has failed.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
