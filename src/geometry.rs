@@ -94,6 +94,21 @@ impl Parallelogram {
         self.closest(p).offset.length()
     }
 
+    /// Whether a box (m) may share a point with the wall: never false if it does, and true for no box that an edge, a
+    /// face or a cross product of edges clearly separates from it (the separating axis theorem).
+    pub fn may_touch(&self, other: &Bounds) -> bool {
+        let (half, between) = (other.size() * 0.5, other.center() - self.center);
+        // Rounding of the difference grows with the coordinates: 1e-12 of them is some thousand units of it.
+        let slack = 1e-12 * (other.center().abs().max(self.center.abs()).max_element() + half.max_element());
+        let apart = |axis: DVec3| {
+            let reach = half.dot(axis.abs()) + 0.5 * (axis.dot(self.s1).abs() + axis.dot(self.s2).abs());
+            axis.dot(between).abs() > reach * (1.0 + 1e-12) + slack * axis.abs().element_sum()
+        };
+        let sides = [DVec3::X, DVec3::Y, DVec3::Z];
+        let across = || sides.iter().flat_map(|&side| [side.cross(self.s1), side.cross(self.s2)]);
+        !(sides.into_iter().any(apart) || apart(self.s1.cross(self.s2)) || across().any(apart))
+    }
+
     /// The smallest box around the outline, m.
     pub fn bounds(&self) -> Bounds {
         let half = (self.s1.abs() + self.s2.abs()) * 0.5;
@@ -219,6 +234,21 @@ mod tests {
         for length in [0.1, 0.3, 7.0, 17.5, 20.0, 1e-9, 1e9] {
             let wall = Parallelogram { center: DVec3::ONE, s1: DVec3::X * length, s2: DVec3::Y * 0.7 };
             assert_eq!(wall.normal(), DVec3::Z, "length {length}");
+        }
+    }
+
+    #[test]
+    fn a_box_that_holds_a_point_of_a_wall_may_touch_it_and_a_box_well_off_does_not() {
+        let wall = slanted();
+        for k in 0..4096 {
+            let at = |shift: u32| f64::from((k >> shift) & 15) - 7.5;
+            let center = wall.center + DVec3::new(at(0), at(4), at(8)) * 0.4;
+            for half in [0.01, 0.3, 1.0] {
+                let (near, may) = (wall.distance(center), wall.may_touch(&Bounds::around(center, half)));
+                // A box holds its inscribed ball and lies within the ball around it.
+                assert!(may || near > half, "{center} is {near} m from the wall, half {half}");
+                assert!(!may || near <= half * 3f64.sqrt() * (1.0 + 1e-9), "{center} is {near} m off, half {half}");
+            }
         }
     }
 

@@ -13,6 +13,7 @@ pub mod frame;
 pub mod geometry;
 pub mod measure;
 pub mod physics;
+pub mod printable;
 pub mod roots;
 pub mod scene;
 pub mod snapshot;

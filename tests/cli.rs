@@ -1,15 +1,23 @@
 //! Does the built binary do what its help says: every command, every exit code, whatever the arguments?
 
+#[path = "cli/bounds.rs"]
+mod bounds;
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/outputs.rs"]
+mod outputs;
 #[path = "cli/program.rs"]
 mod program;
 #[path = "cli/runs.rs"]
 mod runs;
+#[path = "cli/text.rs"]
+mod text;
+#[path = "support/watch.rs"]
+mod watch;
 
 use std::fs;
 
-use program::{Ran, carom, closing, folder, in_folder, names_in};
+use program::{Ran, carom, closing, folder, in_folder};
 
 #[test]
 fn without_a_terminal_the_screen_is_refused_with_what_to_use_instead() {
@@ -114,17 +122,6 @@ fn the_manual_page_has_every_command_and_the_exit_codes() {
 }
 
 #[test]
-fn two_results_cannot_share_a_stream_or_file() {
-    let folder = folder();
-    let (plain, dotted) = (in_folder(&folder, "a"), in_folder(&folder, "./a"));
-    for (states, events) in [("-", "-"), (plain.as_str(), plain.as_str()), (plain.as_str(), dotted.as_str())] {
-        let ran = carom(&["run", "paper-0", "--states", states, "--events", events]).fails_with(2);
-        assert!(ran.err.contains("--states and --events"), "{}", ran.err);
-    }
-    assert!(names_in(&folder).is_empty());
-}
-
-#[test]
 fn numbers_out_of_range_are_wrong_usage_and_named() {
     let positive = ["0", "-1", "-0", "nan", "inf", "-inf", "1e999", "", "two", "1e-999"];
     let not_negative = ["-1", "-1e-300", "NaN", "infinity", "1e999", "", "two"];
@@ -182,42 +179,6 @@ fn a_scene_that_is_not_there_is_a_failure() {
 }
 
 #[test]
-fn no_message_carries_a_control_character() {
-    let folder = folder();
-    let evil = "\u{1b}]0;owned\u{7}\u{1b}[2J\r\n\u{9b}31m\u{202e}x";
-    let file = in_folder(&folder, &format!("{evil}.ron"));
-    fs::write(&file, format!("Scene({evil}: 1)")).expect("a file");
-    let named = in_folder(&folder, "named.ron");
-    fs::write(&named, format!("Scene(name: \"{evil}\", spheres: [], {evil}: 2)")).expect("a file");
-    let missing = in_folder(&folder, &format!("{evil}/{evil}.csv"));
-    let cases: &[&[&str]] = &[
-        &["run", evil],
-        &["run", &file],
-        &["check", &file, &named, evil],
-        &["show", evil],
-        &["methods", evil],
-        &["run", "paper-0", "--dt", evil],
-        &["run", "paper-0", "--size", evil],
-        &["run", "paper-0", "--until", "0", "--states", &missing],
-        &["run", "paper-0", "--until", "0", evil],
-        &["--text", &file],
-        &["--text", evil],
-        &[evil, evil],
-        &[&format!("--{evil}")],
-        &[&format!("--dt={evil}")],
-        &["completions", evil],
-    ];
-    for arguments in cases {
-        let ran = carom(arguments);
-        assert!(matches!(ran.code, Some(1 | 2)), "{ran:?}");
-        assert!(!ran.err.is_empty(), "{arguments:?} says nothing");
-        let bad = |c: &char| (c.is_control() && *c != '\n') || *c == '\u{202e}';
-        let found: Vec<char> = ran.err.chars().chain(ran.out.chars()).filter(bad).collect();
-        assert!(found.is_empty(), "{found:?} in {ran:?}");
-    }
-}
-
-#[test]
 fn a_frame_has_the_size_that_was_asked_for() {
     for (size, columns, rows) in [("80x24", 80, 24), ("120x40", 120, 40), ("200x60", 200, 60), ("20x5", 20, 5)] {
         let frame = carom(&["render", "paper-2", "--at", "1", "--size", size]).succeeds().out;
@@ -268,7 +229,7 @@ fn text_mode_tells_each_event_in_a_line_and_the_end() {
 
 #[test]
 fn a_dumb_terminal_gets_text_mode() {
-    let dumb = program::command(&["paper-1"]).env("TERM", "dumb").output().expect("its end");
+    let dumb = watch::output(program::command(&["paper-1"]).env("TERM", "dumb"));
     assert_eq!(Ran::from(dumb).succeeds().out, carom(&["--text", "paper-1"]).succeeds().out);
 }
 

@@ -11,6 +11,8 @@ mod program;
 #[path = "support/pty.rs"]
 mod pty;
 mod support;
+#[path = "support/watch.rs"]
+mod watch;
 
 use carom::export::TradeRow;
 use carom::measure::{Budget, Errors, Miss, Reference, Rung, Subject, choose, errors};

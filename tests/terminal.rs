@@ -7,6 +7,8 @@ mod input;
 mod pty;
 #[path = "support/random.rs"]
 mod random;
+#[path = "support/watch.rs"]
+mod watch;
 
 use std::time::Duration;
 
@@ -86,6 +88,19 @@ fn signals_end_it_with_their_code_and_a_clean_terminal() {
             pty.assert_given_back();
         }
     }
+}
+
+#[test]
+fn a_hang_up_that_is_ignored_at_the_start_stays_ignored() {
+    let start = carom(&["-c", r#"trap "" HUP; exec "$0" paper-1 --paused"#, env!("CARGO_BIN_EXE_carom")]);
+    let mut pty = Start { program: "sh", ..start }.run();
+    pty.until_text(HINT);
+    pty.signal(Signal::HUP);
+    pty.send("?");
+    pty.until_text("Esc closes");
+    pty.send("q");
+    assert_eq!(pty.exit(), 0);
+    pty.assert_given_back();
 }
 
 #[test]
@@ -301,12 +316,8 @@ fn with_no_color_set_there_is_none() {
 
 #[test]
 fn without_a_terminal_one_line_says_what_to_use_instead() {
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
-        .args(["paper-0"])
-        .env("TERM", "xterm")
-        .stdin(std::process::Stdio::null())
-        .output()
-        .expect("it runs");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_carom"));
+    let output = watch::output(command.args(["paper-0"]).env("TERM", "xterm").stdin(std::process::Stdio::null()));
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
     let said = String::from_utf8(output.stderr).expect("text");

@@ -22,6 +22,7 @@ const PLAN: &[(&str, &[&str])] = &[
             "geometry",
             "measure",
             "physics",
+            "printable",
             "scene",
             "snapshot",
             "terminal",
@@ -30,20 +31,21 @@ const PLAN: &[(&str, &[&str])] = &[
             "worker",
         ],
     ),
-    ("terminal", &["app", "frame", "physics", "scene", "view"]),
-    ("app", &["frame", "geometry", "physics", "scene", "snapshot", "view", "worker"]),
+    ("terminal", &["app", "frame", "physics", "printable", "scene", "view"]),
+    ("app", &["frame", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
     ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
     ("view", &["geometry", "snapshot"]),
-    ("frame", &[]),
-    ("measure", &["export", "geometry", "physics", "scene"]),
+    ("frame", &["printable"]),
+    ("measure", &["export", "geometry", "physics", "printable", "scene"]),
     ("text_mode", &["audit", "export", "physics", "scene"]),
-    ("export", &["physics"]),
+    ("export", &["physics", "printable"]),
     ("audit", &["physics"]),
-    ("snapshot", &["audit", "geometry", "physics", "scene"]),
+    ("snapshot", &["audit", "geometry", "physics", "printable", "scene"]),
     ("physics", &["geometry", "roots", "scene"]),
-    ("scene", &["geometry"]),
+    ("scene", &["geometry", "printable"]),
     ("geometry", &[]),
     ("roots", &[]),
+    ("printable", &[]),
 ];
 
 /// The methods: folders or files of the physics that only its door may name.
@@ -62,6 +64,7 @@ const HOMES: &[(&str, &[&str])] = &[
     ("clap_complete", &["cli"]),
     ("clap_mangen", &["cli"]),
     ("indicatif", &["cli"]),
+    ("unicode_properties", &["printable"]),
 ];
 
 /// Parts of the standard library by which the outer world would enter.

@@ -1,5 +1,8 @@
 //! Does the built binary meet the known results, and say so in a table?
 
+#[path = "support/watch.rs"]
+mod watch;
+
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
@@ -11,7 +14,7 @@ fn carom(words: &[&str]) -> Command {
 
 #[test]
 fn every_known_result_is_met_here() {
-    let done = carom(&["verify", "--quick"]).output().expect("the built binary");
+    let done = watch::output(&mut carom(&["verify", "--quick"]));
     let (table, told) = (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
     assert_eq!((done.status.code(), &*told), (Some(0), ""), "{table}");
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
@@ -46,6 +49,6 @@ fn who_reads_no_further_is_not_measured_for() {
     let mut reader = BufReader::new(child.stdout.take().expect("a pipe"));
     reader.read_line(&mut head).expect("the head of the table");
     drop(reader);
-    let done = child.wait_with_output().expect("it ends");
+    let done = watch::finish(child);
     assert_eq!((done.status.code(), String::from_utf8_lossy(&done.stderr).as_ref()), (Some(141), ""));
 }

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     physics::Settings,
-    scene, view,
+    printable, scene, view,
     worker::{Activity, Command},
 };
 
@@ -65,7 +65,7 @@ impl App {
         if !typing {
             return Effect::Nothing;
         }
-        for c in text.chars().filter(|c| !c.is_control()).take(PROMPT) {
+        for c in text.chars().filter(|c| printable::is_printable(*c)).take(PROMPT) {
             let _ = self.key(Key::char(c));
         }
         Effect::DrawNow
@@ -206,20 +206,20 @@ impl App {
         let before = self.comparison.take().map(Comparison::end).or(self.ending.take());
         match Comparison::start(&self.current, &self.report, before, Arc::clone(&self.notify)) {
             Ok(comparison) => self.comparison = Some(comparison),
-            Err(error) => self.say(format!("The exact run cannot start: {error}.")),
+            Err(error) => self.say(format!("The exact run cannot start: {}.", printable::cause(&error))),
         }
     }
 
     /// Says what of the scene is allowed but hardly meant.
     pub(super) fn warn(&mut self) {
-        let warnings = scene::warnings(&self.current.scene, self.settings);
+        let warnings = scene::warnings(&self.current.scene, self.settings, self.current.scene.duration);
         if !warnings.is_empty() {
             self.say(format!("Note: {}.", warnings.join("; ")));
         }
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
-        let given = self.given.iter().map(|entry| entry.name.clone());
+        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
         let names: Vec<String> = given.chain(scene_list::built_in_names().map(str::to_owned)).collect();
         let at = names.iter().position(|name| *name == self.wanted_name());
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
@@ -228,7 +228,7 @@ impl App {
 
     /// The scenes there are: the file the program was started with, then the built-in ones.
     fn entries(&self) -> Vec<scene_list::Entry> {
-        self.given.iter().cloned().chain(scene_list::built_in()).collect()
+        self.given.iter().map(|(entry, _)| entry.clone()).chain(scene_list::built_in()).collect()
     }
 
     fn solve_with(&mut self, settings: Result<Settings, String>) {

@@ -2,6 +2,7 @@
 //! working meanwhile.
 
 use std::{
+    ffi::{OsStr, OsString},
     sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError},
     time::Duration,
 };
@@ -9,6 +10,7 @@ use std::{
 use super::{App, Current, Effect, act::one_line, knobs};
 use crate::{
     physics::Settings,
+    printable,
     scene::{self, Opened},
     worker::Errands,
 };
@@ -36,11 +38,11 @@ pub(super) struct Loaded {
 /// What decides about the settings of a scene that is read again: those in force, and those of the scene before.
 type Before = Option<(Settings, Settings)>;
 
-fn load(name: &str, before: Before) -> Result<Loaded, String> {
-    let opened: Opened = scene::open(name).map_err(|error| one_line(&error.to_string()))?;
+fn load(source: &OsStr, before: Before) -> Result<Loaded, String> {
+    let opened: Opened = scene::open(source).map_err(|error| one_line(&error.to_string()))?;
     let own = opened.scene.solver;
     let settings = before.map_or(own, |(now, old)| knobs::reloaded(now, old, own));
-    let warnings = scene::warnings(&opened.scene, settings);
+    let warnings = scene::warnings(&opened.scene, settings, opened.scene.duration);
     let message = (!warnings.is_empty()).then(|| format!("Note: {}.", warnings.join("; ")));
     Ok(Loaded { current: Current::of(opened), settings, message })
 }
@@ -51,12 +53,16 @@ impl App {
         if self.current.path.is_none() {
             return self.say(format!("{} is built in: there is no file to reload.", self.current.name));
         }
-        self.fetch(self.current.name.clone(), Some((self.settings, self.current.scene.solver)));
+        let source = self.current.source().to_owned();
+        self.fetch(self.current.name.clone(), source, Some((self.settings, self.current.scene.solver)));
     }
 
     /// Opens another scene; if it does not load, the old run goes on.
     pub(super) fn open_scene(&mut self, name: &str) {
-        self.fetch(name.to_owned(), None);
+        // The file that the program was started with may have a name that can't be shown as it is.
+        let given = self.given.as_ref().filter(|(entry, _)| entry.name == name);
+        let source = given.map_or_else(|| name.into(), |(_, path)| path.as_os_str().to_owned());
+        self.fetch(name.to_owned(), source, None);
     }
 
     /// The name of the scene that is shown, or that will be.
@@ -73,13 +79,12 @@ impl App {
         loading.is_some()
     }
 
-    fn fetch(&mut self, name: String, before: Before) {
+    fn fetch(&mut self, name: String, source: OsString, before: Before) {
         let errands = match self.errands.take().map_or_else(|| Errands::start(self.notify.clone()), Ok) {
             Ok(errands) => self.errands.insert(errands),
-            Err(error) => return self.say(format!("{name} can't be opened: {error}.")),
+            Err(error) => return self.say(format!("{name} cannot be opened: {}.", printable::cause(&error))),
         };
-        let theirs = name.clone();
-        let result = errands.ask(move || load(&theirs, before));
+        let result = errands.ask(move || load(&source, before));
         let at_once = result.recv_timeout(AT_ONCE);
         let loading = Loading { name, again: before.is_some(), result };
         match at_once {
@@ -122,5 +127,5 @@ impl App {
 
 /// What is said of a scene that made us panic.
 fn failed(name: &str) -> String {
-    format!("{name} can't be opened: carom has made a mistake.")
+    format!("{name} cannot be opened: carom has made a mistake.")
 }

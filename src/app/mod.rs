@@ -10,7 +10,7 @@ mod look;
 mod prompt;
 mod scene_list;
 
-use std::{path::PathBuf, sync::Arc};
+use std::{ffi::OsStr, path::PathBuf, sync::Arc};
 
 pub use action::{Action, Direction};
 use comparison::Comparison;
@@ -24,6 +24,7 @@ use scene_list::SceneList;
 
 use crate::{
     physics::{Scene, Settings},
+    printable,
     scene::Opened,
     snapshot::{Ghost, Stage},
     view::{self, Colors, Look, Marker, Mode, Pace, Popup, Screen},
@@ -88,7 +89,7 @@ enum Open {
 /// The scene under way, as it was opened.
 #[derive(Debug)]
 struct Current {
-    /// What [`crate::scene::open`] takes: built-in name or path.
+    /// Built-in name or path, as it is shown.
     name: String,
     /// Its file, unless it is built in.
     path: Option<PathBuf>,
@@ -104,6 +105,11 @@ impl Current {
         Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene), stage }
     }
 
+    /// What [`crate::scene::open`] takes to open this scene again.
+    fn source(&self) -> &OsStr {
+        self.path.as_ref().map_or(OsStr::new(&self.name), |path| path.as_os_str())
+    }
+
     fn job(&self, settings: Settings) -> Job {
         Job { stage: Arc::clone(&self.stage), scene: Arc::clone(&self.scene), settings }
     }
@@ -115,7 +121,7 @@ pub struct App {
     report: Arc<Report>,
     current: Current,
     /// The file the program was started with, in the list beside the built-in scenes.
-    given: Option<scene_list::Entry>,
+    given: Option<(scene_list::Entry, PathBuf)>,
     settings: Settings,
     speed: f64,
     /// Whether the run was told to run; the worker's latest report may not know yet.
@@ -149,7 +155,8 @@ impl App {
         let worker = Worker::start(current.job(setup.settings), 1.0, Arc::clone(&notify))?;
         let report = worker.take();
         let about = current.scene.about.clone();
-        let given = current.path.as_ref().map(|_| scene_list::Entry { name: current.name.clone(), about });
+        let entry = scene_list::Entry { name: current.name.clone(), about };
+        let given = current.path.clone().map(|path| (entry, path));
         let mut app = App {
             worker,
             report,
@@ -290,9 +297,9 @@ impl App {
     }
 }
 
-/// What [`crate::scene::open`] takes to open this scene again.
+/// How a scene is called on the screen: by its path, as far as it can be printed, or its built-in name.
 fn name_of(key: &str, path: Option<&PathBuf>) -> String {
-    path.map_or_else(|| key.to_owned(), |path| path.to_string_lossy().into_owned())
+    path.map_or_else(|| key.to_owned(), |path| printable::name(path.as_os_str()))
 }
 
 /// Both views, the whole scene, nothing selected.

@@ -1,8 +1,9 @@
 //! Every command, option and range, as clap reads and explains them.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 
@@ -14,7 +15,8 @@ use crate::view::{Colors, Marker};
 
 const AFTER: &str = "\
 Results go to standard output, everything else to standard error.
-Exit status: 0 done, 1 failed, 2 wrong usage, 128 + n ended by signal n.";
+Exit status: 0 done, 1 failed, 2 wrong usage, 128 + n ended by signal n.
+A signal to end that is ignored at the start, as SIGHUP is under nohup, stays ignored.";
 
 /// Rigid spheres bouncing between parallelogram walls and each other: how much accuracy for how much time?
 #[derive(Debug, Parser)]
@@ -55,7 +57,7 @@ pub(super) enum Command {
 pub(super) struct Play {
     /// Scene file or built-in name; without one, the first built-in scene
     #[arg(value_hint = ValueHint::FilePath)]
-    pub(super) scene: Option<String>,
+    pub(super) scene: Option<OsString>,
     #[command(flatten)]
     pub(super) solver: Solver,
     /// Start paused
@@ -85,25 +87,28 @@ pub(super) struct Methods {
 pub(super) struct Check {
     /// Scene files or built-in names
     #[arg(required = true, value_name = "SCENE", value_hint = ValueHint::FilePath)]
-    pub(super) scenes: Vec<String>,
+    pub(super) scenes: Vec<OsString>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct Run {
     /// Scene file or built-in name
     #[arg(value_hint = ValueHint::FilePath)]
-    pub(super) scene: String,
+    pub(super) scene: OsString,
     /// End of the run, s [default: the scene's duration]
     #[arg(long, value_name = "T", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     pub(super) until: Option<f64>,
     /// Time between two states, s [default: only the first and the last state]
     #[arg(long, value_name = "S", requires = "states", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) every: Option<f64>,
+    /// Write the states however many rows that are; without it, more than 1e8 are refused
+    #[arg(long, requires = "every")]
+    pub(super) yes: bool,
     /// Write times, positions and velocities; JSON lines if it ends in .jsonl, else CSV; - is standard output
-    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) states: Option<Target>,
     /// Write collisions, rests and releases, likewise
-    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) events: Option<Target>,
     /// Have an independent judge look at every frame and event; exit code 1 if it finds anything
     #[arg(long)]
@@ -116,7 +121,7 @@ pub(super) struct Run {
 pub(super) struct Render {
     /// Scene file or built-in name
     #[arg(value_hint = ValueHint::FilePath)]
-    pub(super) scene: String,
+    pub(super) scene: OsString,
     /// Time of the frame, s
     #[arg(long, value_name = "T", default_value = "0", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     pub(super) at: f64,
@@ -143,7 +148,7 @@ docs/measure.md tells what each figure means, and has a Slurm array script.";
 pub(super) struct Measure {
     /// Scene files or built-in names
     #[arg(required_unless_present = "merge", value_name = "SCENE", value_hint = ValueHint::FilePath)]
-    pub(super) scenes: Vec<String>,
+    pub(super) scenes: Vec<OsString>,
     /// Methods that compete [default: all, and exact as the yardstick alone]
     #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = method())]
     pub(super) methods: Vec<Method>,
@@ -158,10 +163,10 @@ pub(super) struct Measure {
     #[arg(long, value_name = "N", value_parser = numbers::count)]
     pub(super) jobs: Option<usize>,
     /// Write every row as CSV; - is standard output
-    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) csv: Option<Target>,
     /// Draw the trade as a figure; - is standard output
-    #[arg(long, value_name = "FILE", value_parser = target, value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) svg: Option<Target>,
     /// Measure only part I of N, I from 1
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
@@ -296,9 +301,9 @@ fn method() -> impl TypedValueParser<Value = Method> {
     names.try_map(|name| Method::from_name(&name).ok_or("no such method"))
 }
 
-fn target(word: &str) -> Result<Target, String> {
-    match word {
-        "" => Err("must name a file, or be - for standard output".into()),
-        word => Ok(Target::from(word)),
-    }
+fn target() -> impl TypedValueParser<Value = Target> {
+    OsStringValueParser::new().try_map(|word| match word.is_empty() {
+        true => Err("must name a file, or be - for standard output"),
+        false => Ok(Target::from(word)),
+    })
 }

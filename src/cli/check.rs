@@ -32,7 +32,7 @@ fn tell(opened: &Opened, out: &mut impl Write) -> Result<(), Failure> {
     if !required.left_out().is_empty() {
         writeln!(out, "  leaves out {}", required.left_out().join(", "))?;
     }
-    for warning in scene::warnings(&opened.scene, opened.scene.solver) {
+    for warning in scene::warnings(&opened.scene, opened.scene.solver, opened.scene.duration) {
         note(&format!("{}: {warning}", opened.key));
     }
     Ok(())

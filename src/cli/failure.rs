@@ -1,10 +1,12 @@
 //! How a command can end other than well: its exit code, and its one line on stderr.
 
-use std::fmt::Write as _;
-use std::io::{self, Write as _};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue};
+
+use super::output;
+use crate::printable;
 
 /// Exit code of a command that could not do its work.
 const FAILED: u8 = 1;
@@ -36,7 +38,7 @@ impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            _ => Failure::Failed(error.to_string()),
+            _ => Failure::Failed(printable::cause(&error)),
         }
     }
 }
@@ -62,7 +64,7 @@ fn say(sentence: &str, code: u8) -> ExitCode {
 
 /// One line on stderr. If nobody can read it, the exit code still tells.
 pub(super) fn note(sentence: &str) {
-    let _ = writeln!(io::stderr(), "carom: {}", printable(sentence));
+    let _ = writeln!(io::stderr(), "carom: {}", printable::escaped(sentence));
 }
 
 /// Without clap's own help and version, which go to stdout, this is wrong usage.
@@ -74,44 +76,35 @@ fn explain(mut error: clap::Error) -> ExitCode {
     for (kind, value) in harmless {
         error.insert(kind, value);
     }
-    match error.print() {
-        Ok(()) => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(USAGE)),
-        Err(broken) => Failure::from(broken).report(),
+    let code = ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(USAGE));
+    let plain = error.render().to_string();
+    let printed = match plain.lines().all(|line| line.chars().all(printable::is_printable)) {
+        true => error.print(),
+        false => plain.lines().try_for_each(|line| writeln!(io::stderr(), "{}", printable::escaped(line))),
+    };
+    match printed {
+        // Wrong usage stays wrong usage, whether or not anybody can read what was wrong.
+        Err(broken) if !error.use_stderr() => Failure::from(output::cannot_write("standard output", &broken)).report(),
+        _ => code,
     }
 }
 
-/// What clap would quote from the command line, if a control character is in it. Its own styles are another variant.
+/// What clap would quote from the command line, if it is not printable as it is. Its own styles are another variant.
 fn escaped(value: &ContextValue) -> Option<ContextValue> {
     match value {
-        ContextValue::String(text) if text.contains(is_unprintable) => Some(ContextValue::String(printable(text))),
+        ContextValue::String(text) if !text.chars().all(printable::is_printable) => {
+            Some(ContextValue::String(printable::escaped(text)))
+        }
+        ContextValue::Strings(list) if !list.iter().all(|text| text.chars().all(printable::is_printable)) => {
+            Some(ContextValue::Strings(list.iter().map(|text| printable::escaped(text)).collect()))
+        }
         _ => None,
     }
-}
-
-/// The text with every control and direction-changing character spelled out, so that no terminal obeys it.
-pub(super) fn printable(text: &str) -> String {
-    text.chars().fold(String::with_capacity(text.len()), |mut clean, c| {
-        if is_unprintable(c) {
-            let _ = write!(clean, "{}", c.escape_default());
-        } else {
-            clean.push(c);
-        }
-        clean
-    })
-}
-
-fn is_unprintable(c: char) -> bool {
-    c.is_control() || matches!(c, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn control_characters_are_spelled_out() {
-        assert_eq!(printable("a\u{1b}[2Jb\nc\u{9b}d\u{202e}é→"), "a\\u{1b}[2Jb\\nc\\u{9b}d\\u{202e}é→");
-    }
 
     #[test]
     fn a_closed_pipe_is_not_an_error_message() {

@@ -1,6 +1,5 @@
 //! `carom measure SCENE…`: what accuracy costs, as a table, a chart, CSV and a figure.
 
-use std::fs::File;
 use std::io::{self, IsTerminal, Write};
 use std::thread;
 use std::time::Duration;
@@ -8,13 +7,15 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::arguments::Measure;
-use super::failure::{Failure, note, printable};
+use super::failure::{Failure, note};
 use super::output::{Output, Target};
+use super::place::refuse_shared;
 use super::signals::Signals;
 use crate::export::{Format, Table, TradeRow, read_trade};
-use crate::measure::{self, Advance, Ladder, Measured, Placed, Shard, Sweep, Yardstick};
+use crate::measure::{self, Advance, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::physics::Method;
-use crate::scene;
+use crate::printable;
+use crate::scene::{self, Opened};
 
 /// Steps of the progress bar: finer than any terminal shows.
 const STEPS: f64 = 1000.0;
@@ -23,29 +24,29 @@ const STEPS: f64 = 1000.0;
 const TICK: Duration = Duration::from_millis(250);
 
 pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
-    refuse_same_target(arguments)?;
+    refuse_shared(&outputs(arguments), &[])?;
+    let merged: Vec<_> = arguments.merge.iter().map(|path| ("the part", path.as_path())).collect();
+    refuse_shared(&outputs(arguments), &merged)?;
     let files = Files::open(arguments)?;
     if !arguments.merge.is_empty() {
         let rows = measure::merge(read_all(&arguments.merge)?).map_err(Failure::Failed)?;
         return files.write(&rows, &allowed(arguments), &[]);
     }
     let measured = sweep(arguments, signals)?;
+    let (interrupted, done) = (signals.check(), measured.rows.len());
+    if interrupted.is_err() && done == 0 {
+        note(&format!("interrupted: none of {} settings is done; nothing is written", measured.wanted));
+        return interrupted;
+    }
     files.write(&measured.rows, &allowed(arguments), &measured.yardsticks)?;
-    let interrupted = signals.check();
     if interrupted.is_err() {
-        note(&format!("interrupted: {} of {} settings are done and kept", measured.rows.len(), measured.wanted));
+        note(&format!("interrupted: {done} of {} settings are done and kept", measured.wanted));
     }
     interrupted
 }
 
-/// Both into one stream would be a file that nobody can read.
-fn refuse_same_target(arguments: &Measure) -> Result<(), Failure> {
-    let (Some(csv), Some(svg)) = (&arguments.csv, &arguments.svg) else { return Ok(()) };
-    if csv.place()? != svg.place()? {
-        return Ok(());
-    }
-    let name = if *csv == Target::Stdout { "standard output" } else { "the same file" };
-    Err(Failure::Usage(format!("--csv and --svg cannot both go to {name}; give each its own")))
+fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 2] {
+    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref())]
 }
 
 /// Who competes on the front: `exact`, the yardstick, only if it was asked for.
@@ -67,9 +68,14 @@ fn ladder(arguments: &Measure) -> Ladder {
 }
 
 fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
-    let opened = arguments.scenes.iter().map(|name| scene::open(name).map(|opened| (opened.key, opened.scene)));
-    let scenes = opened.collect::<Result<Vec<_>, _>>().map_err(|error| Failure::Failed(error.to_string()))?;
-    let sweep = Sweep::new(scenes, ladder(arguments), arguments.shard.unwrap_or(Shard::WHOLE));
+    let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
+    let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
+    let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
+    refuse_shared(&outputs(arguments), &inputs)?;
+    let ladder = ladder(arguments);
+    opened.iter().filter_map(|opened| endless(opened, &ladder)).for_each(|warning| note(&warning));
+    let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
+    let sweep = Sweep::new(scenes, ladder, arguments.shard.unwrap_or(Shard::WHOLE));
     let sweep = sweep.map_err(Failure::Failed)?;
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let bar = progress_bar(sweep.wanted());
@@ -79,6 +85,15 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     });
     bar.finish_and_clear();
     Ok(measured)
+}
+
+/// What must be said of a scene and the shortest step on the ladder, if nobody will see the end of that.
+fn endless(opened: &Opened, ladder: &Ladder) -> Option<String> {
+    let until = opened.scene.duration;
+    let by_step = |a: &Rung, b: &Rung| a.settings(until).dt.total_cmp(&b.settings(until).dt);
+    let shortest = ladder.rungs().into_iter().min_by(by_step)?;
+    let warning = scene::endless(&opened.scene, shortest.settings(until), until)?;
+    Some(format!("{}: {warning}", opened.key))
 }
 
 /// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
@@ -107,7 +122,7 @@ struct Files {
 impl Files {
     fn open(arguments: &Measure) -> Result<Files, Failure> {
         let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
-        let taken = [&arguments.csv, &arguments.svg].iter().any(|target| **target == Some(Target::Stdout));
+        let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
         Ok(Files { csv: open(&arguments.csv)?, svg: open(&arguments.svg)?, report_on_stdout: !taken })
     }
 
@@ -136,8 +151,9 @@ impl Files {
 fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
     let mut all = Vec::new();
     for path in paths {
-        let name = printable(&path.display().to_string());
-        let rows = File::open(path).map_err(|error| format!(" {error}")).and_then(read_trade);
+        let name = printable::name(path.as_os_str());
+        let text = scene::contents(path, "the CSV of a part").map_err(|message| format!(" {message}"));
+        let rows = text.and_then(|text| read_trade(text.as_slice()));
         let rows = rows.map_err(|error| Failure::Failed(format!("{name}:{error}")))?;
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }

@@ -8,6 +8,8 @@
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
 //! | `judge` | what watches and judges a run of `carom run` |
+//! | `place` | which file a word leads to, and that no output destroys another or an input |
+//! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
 
@@ -23,8 +25,10 @@ mod measure;
 mod methods;
 mod numbers;
 mod output;
+mod place;
 mod play;
 mod render;
+mod rows;
 mod run;
 mod show;
 mod signals;

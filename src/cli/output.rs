@@ -1,13 +1,18 @@
 //! Where results go: standard output, or a file that is replaced as a whole or not at all.
 
+use std::ffi::OsString;
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Stdout, Write};
+use std::os::fd::AsFd;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
+use rustix::io::Errno;
 use tempfile::{Builder, NamedTempFile};
 
-use super::failure::{Failure, printable};
+use super::failure::Failure;
+use super::place::{Place, destination, folder};
+use crate::printable;
 
 /// A FILE of the command line; `-` is standard output.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,18 +23,32 @@ pub(super) enum Target {
     File(PathBuf),
 }
 
-impl From<&str> for Target {
-    fn from(word: &str) -> Target {
+impl From<OsString> for Target {
+    fn from(word: OsString) -> Target {
         if word == "-" { Target::Stdout } else { Target::File(PathBuf::from(word)) }
     }
 }
 
 impl Target {
-    /// Where it is, whatever it was called: `a.csv` and `./a.csv` are one place.
-    pub(super) fn place(&self) -> io::Result<PathBuf> {
+    /// Where it is, whatever it was called; none if it leads nowhere.
+    pub(super) fn place(&self) -> Option<Place> {
         match self {
-            Target::Stdout => Ok(PathBuf::from("-")),
-            Target::File(path) => std::path::absolute(path),
+            Target::Stdout => Place::of_open(io::stdout()),
+            Target::File(path) => Place::of(path).ok(),
+        }
+    }
+
+    /// Whether it is standard output, by whatever name (`/dev/stdout`, the file into which the shell sends it).
+    pub(super) fn is_stdout(&self) -> bool {
+        let alike = |place| place != Place::Nowhere && Some(place) == Place::of_open(io::stdout());
+        *self == Target::Stdout || self.place().is_some_and(alike)
+    }
+
+    /// What it was called, as it may be printed.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Target::Stdout => "-".into(),
+            Target::File(path) => printable::name(path.as_os_str()),
         }
     }
 }
@@ -57,7 +76,10 @@ impl Output {
     /// If it is a directory, or its directory can't be written to.
     pub(super) fn open(target: &Target) -> Result<Output, Failure> {
         let Target::File(path) = target else { return Ok(Output::stdout()) };
-        let name = path.display().to_string();
+        if target.is_stdout() {
+            return Ok(Output::stdout());
+        }
+        let name = target.name();
         let sink = sink(path).map_err(|error| cannot_write(&name, &error))?;
         Ok(Output { writer: BufWriter::new(sink), name })
     }
@@ -112,37 +134,43 @@ impl Write for Sink {
 }
 
 /// Keeps the kind, by which a closed pipe is told from a failure.
-fn cannot_write(name: &str, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("cannot write {}: {}", printable(name), plain(error)))
-}
-
-/// The system's message without Rust's `(os error N)`.
-fn plain(error: &io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or(&text).to_string()
+pub(super) fn cannot_write(name: &str, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("cannot write {name}: {}", printable::cause(error)))
 }
 
 fn sink(path: &Path) -> io::Result<Sink> {
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        Ok(found) if found.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
+        Ok(found) if found.is_dir() => Err(Errno::ISDIR.into()),
+        Ok(found) if found.permissions().readonly() => Err(Errno::ACCESS.into()),
+        // The shell has opened this file for us: replacing it would leave its bytes in one that has no name any more.
+        Ok(_) if is_stderr(path) => Ok(Sink::Stream(File::from(io::stderr().as_fd().try_clone_to_owned()?))),
         Ok(found) if !found.is_file() => File::options().write(true).open(path).map(Sink::Stream),
         Ok(found) => replacement(&fs::canonicalize(path)?, Some(&found)), // a link stays, what it names is replaced
-        Err(error) if error.kind() == io::ErrorKind::NotFound => replacement(path, None),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => replacement(&destination(path)?, None),
         Err(error) => Err(error),
     }
+}
+
+fn is_stderr(path: &Path) -> bool {
+    let place = Place::of(path).ok().filter(|place| *place != Place::Nowhere);
+    place.is_some() && place == Place::of_open(io::stderr())
 }
 
 /// A temporary file beside `path`, so that the renaming at the end stays within one file system.
 fn replacement(path: &Path, found: Option<&Metadata>) -> io::Result<Sink> {
     if path.file_name().is_none() {
-        return Err(io::ErrorKind::IsADirectory.into());
+        return Err(Errno::ISDIR.into());
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let ordinary = fs::Permissions::from_mode(0o666); // less the umask, as any new file
-    let file = Builder::new().prefix(".carom-").permissions(ordinary).tempfile_in(folder)?;
+    let file = Builder::new().prefix(".carom-").permissions(ordinary).tempfile_in(folder(path)).map_err(unwrapped)?;
     if let Some(found) = found {
         file.as_file().set_permissions(found.permissions())?;
     }
     Ok(Sink::Replacement(file, path.to_path_buf()))
+}
+
+/// The system's own words: tempfile adds the path of its file, which nobody has named.
+fn unwrapped(error: io::Error) -> io::Error {
+    let text = error.to_string();
+    io::Error::new(error.kind(), text.split(" (os error ").next().unwrap_or(&text).to_owned())
 }

@@ -16,7 +16,7 @@ pub(super) fn play(arguments: &Play) -> Result<(), Failure> {
     if !text && !io::stdout().is_terminal() {
         return Err(Failure::Usage(terminal::Error::NoTerminal.to_string())); // before a scene is read for nothing
     }
-    let name = arguments.scene.as_deref().unwrap_or(builtin::ALL[0].name);
+    let name = arguments.scene.as_deref().unwrap_or(builtin::ALL[0].name.as_ref());
     let opened = scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
     if text { tell(arguments, &opened) } else { show(arguments, opened) }
 }
@@ -25,6 +25,8 @@ fn tell(arguments: &Play, opened: &Opened) -> Result<(), Failure> {
     let signals = Signals::watch()?;
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, Some(&signals))?;
     said.iter().for_each(|said| note(said));
+    let endless = scene::endless(&opened.scene, settings, opened.scene.duration);
+    endless.iter().for_each(|warning| note(&format!("{}: {warning}", opened.key)));
     let mut out = Output::stdout();
     match text_mode::tell(&opened.scene, settings, &mut out, || signals.check().is_ok())? {
         Ending::Done => out.finish(),

@@ -25,6 +25,8 @@ pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failur
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, Some(signals))?;
     said.iter().for_each(|said| note(said));
+    let endless = scene::endless(&opened.scene, settings, arguments.at);
+    endless.iter().for_each(|warning| note(&format!("{}: {warning}", opened.key)));
     let shown = reach(&opened, settings, arguments.at, signals)?;
     let buffer = draw(&shown, &look(&arguments.display), arguments.size);
     let bytes = match arguments.format {

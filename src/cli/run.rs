@@ -9,6 +9,8 @@ use super::arguments::Run;
 use super::failure::{Failure, note};
 use super::judge::Jury;
 use super::output::{Output, Target};
+use super::place::refuse_shared;
+use super::rows::refuse_too_many;
 use super::signals::Signals;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
@@ -21,12 +23,15 @@ pub(super) const SLICE: u64 = 20_000;
 const STEPS: f64 = 1000.0;
 
 pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
-    refuse_same_target(arguments)?;
+    let outputs = [("--states", arguments.states.as_ref()), ("--events", arguments.events.as_ref())];
+    refuse_shared(&outputs, &[])?;
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
     let until = arguments.until.unwrap_or(opened.scene.duration);
+    refuse_too_many(arguments, &opened.scene, until)?;
+    opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, until, Some(signals))?;
     said.iter().for_each(|said| note(said));
-    for warning in scene::warnings(&opened.scene, settings) {
+    for warning in scene::warnings(&opened.scene, settings, until) {
         note(&format!("{}: {warning}", opened.key));
     }
     let simulation = Simulation::new(&opened.scene, settings);
@@ -42,18 +47,8 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     };
     recorder.simulation.record_events(true);
     let stall = recorder.record(arguments.every)?;
-    let on_stdout = [&arguments.states, &arguments.events].iter().all(|file| **file != Some(Target::Stdout));
+    let on_stdout = !outputs.iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
     recorder.close(stall, on_stdout)
-}
-
-/// Both into one stream would be a file that nobody can read.
-fn refuse_same_target(arguments: &Run) -> Result<(), Failure> {
-    let (Some(states), Some(events)) = (&arguments.states, &arguments.events) else { return Ok(()) };
-    if states.place()? != events.place()? {
-        return Ok(());
-    }
-    let name = if *states == Target::Stdout { "standard output" } else { "the same file" };
-    Err(Failure::Usage(format!("--states and --events cannot both go to {name}; give each its own")))
 }
 
 fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failure> {

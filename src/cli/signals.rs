@@ -9,6 +9,7 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals as Arrivals;
 
 use super::failure::Failure;
+use crate::terminal::not_ignored;
 
 /// How long a command may take to notice a signal and remove its unfinished files, before the process ends without
 /// it (blocked on a pipe that nobody empties, say). Longer keeps the user waiting; a slice of work takes some 10 ms.
@@ -23,9 +24,7 @@ pub(super) struct Signals {
 impl Signals {
     /// Watches from here on for every signal that the parent has not told us to ignore (nohup, background jobs).
     pub(super) fn watch() -> Result<Signals, Failure> {
-        let ignored = ignored();
-        let wanted = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
-        let mut arrivals = Arrivals::new(wanted.collect::<Vec<_>>())?;
+        let mut arrivals = Arrivals::new(not_ignored(&[SIGINT, SIGTERM, SIGHUP]))?;
         let signals = Signals::default();
         let arrived = Arc::clone(&signals.arrived);
         thread::Builder::new().name("signals".into()).spawn(move || {
@@ -46,11 +45,4 @@ impl Signals {
             number => Err(Failure::Signal(number)),
         }
     }
-}
-
-/// Bit n − 1 is set if signal n is ignored. Where /proc does not tell, none is.
-fn ignored() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok()).unwrap_or(0)
 }

@@ -5,6 +5,7 @@ use std::io;
 use serde::{Deserialize, Serialize};
 
 use super::Row;
+use crate::printable;
 
 /// One setting on one scene. An empty cell: the method has no such knob, or there is no such figure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -95,7 +96,6 @@ fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
 /// What no measure writes, but a file may hold: numbers that are none or negative, text that a terminal would obey.
 fn improper(row: &TradeRow) -> Option<String> {
     let numbers = [
-        ("dt", row.dt),
         ("tolerance", row.tolerance),
         ("until", Some(row.until)),
         ("horizon", row.horizon),
@@ -105,31 +105,38 @@ fn improper(row: &TradeRow) -> Option<String> {
         ("cpu_per_s", row.cpu_per_s),
         ("cpu_spread", row.cpu_spread),
     ];
-    let wrong = numbers.iter().find(|(_, value)| value.is_some_and(|value| value.is_nan() || value < 0.0));
-    if let Some((column, value)) = wrong {
-        return Some(format!("{column} is {:?}; wanted is a number from 0", value.unwrap_or(f64::NAN)));
+    if let Some(dt) = row.dt.filter(|dt| !dt.is_finite() || *dt <= 0.0) {
+        return Some(format!("dt is {dt:?}; wanted is a finite number above 0"));
+    }
+    let fine = |value: f64| value.is_finite() && value >= 0.0;
+    if let Some((column, value)) = numbers.iter().find(|(_, value)| value.is_some_and(|value| !fine(value))) {
+        return Some(format!("{column} is {:?}; wanted is a finite number from 0", value.unwrap_or(f64::NAN)));
+    }
+    if !row.deepest_degree.is_finite() {
+        return Some(format!("deepest_degree is {:?}; wanted is a finite number", row.deepest_degree));
     }
     let texts = [("scene", &row.scene), ("method", &row.method), ("note", &row.note)];
-    let (column, text) = texts.iter().find(|(_, text)| text.contains(is_unprintable))?;
-    Some(format!("{column} is {text:?}; control characters are refused"))
+    let (column, refused) =
+        texts.iter().find_map(|(column, text)| Some((column, text.chars().find(|c| !printable::is_printable(*c))?)))?;
+    let what = printable::described(refused);
+    Some(format!("{column} holds {what}; wanted is text of characters that can be seen"))
 }
 
-fn is_unprintable(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
-}
+/// Longest cell quoted in a message, characters.
+const CELL: usize = 60;
 
 /// Which cell of a row is wrong, and what stands in it.
 fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
     let csv::ErrorKind::Deserialize { err, .. } = error.kind() else { return error.to_string() };
     let Some(index) = err.field().and_then(|index| usize::try_from(index).ok()) else { return err.to_string() };
     let column = TradeRow::COLUMNS.get(index).copied().unwrap_or("a cell");
-    format!("{column} is {:?}; wanted is a number", record.get(index).unwrap_or(""))
+    let found = printable::shortened(record.get(index).unwrap_or(""), CELL);
+    format!("{column} is \"{found}\"; wanted is a number")
 }
 
 fn explain(error: &csv::Error) -> String {
     match (error.position(), error.kind()) {
-        (_, csv::ErrorKind::Io(error)) => format!(" {error}"),
+        (_, csv::ErrorKind::Io(error)) => format!(" {}", printable::cause(error)),
         (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("{}: this is no text in UTF-8", place.line()),
         _ => format!(" {error}"),
     }
@@ -185,9 +192,14 @@ mod tests {
             (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
             (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
             (good.replace("1e300", "NaN"), &["2: ", "cpu_per_s is NaN"]),
+            (good.replace("paper,0.1", "paper,inf"), &["2: ", "dt is inf", "finite"]),
+            (good.replace("paper,0.1", "paper,-0.1"), &["2: ", "dt is -0.1"]),
+            (good.replace("paper,0.1", "paper,0"), &["2: ", "dt is 0", "above 0"]),
+            (good.replace("paper,0.1", "paper,1e999"), &["2: ", "dt is inf"]),
+            (good.replace(",-0.0,", ",inf,"), &["2: ", "deepest_degree is inf"]),
             (good.replace("20.0", "-1"), &["2: ", "until is -1"]),
-            (good.replace("stalled", "\u{1b}[2J"), &["2: ", "note", "control characters"]),
-            (good.replace("stalled", "\u{202e}"), &["2: ", "note", "control characters"]),
+            (good.replace("stalled", "\u{1b}[2J"), &["2: ", "note", "a control character"]),
+            (good.replace("stalled", "\u{202e}"), &["2: ", "note", "a direction mark"]),
         ] {
             let error = read_trade(text.as_bytes()).expect_err(&text);
             assert!(words.iter().all(|word| error.contains(word)), "{error}");

@@ -6,6 +6,7 @@ use ratatui::{
 };
 
 use super::sgr::Pen;
+use crate::printable::is_printable;
 
 /// What one cell shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +62,7 @@ pub(super) fn row(buffer: &Buffer, y: u16) -> impl Iterator<Item = Glyph<'_>> {
 /// What a cell shows with so many columns left in its row: a blank for anything that is not printable or does not fit.
 fn glyph(cell: &Cell, columns: usize) -> Glyph<'_> {
     let (text, pen) = (cell.symbol(), Pen::of(cell));
-    if text.chars().any(char::is_control) {
+    if !text.chars().all(is_printable) {
         return Glyph { text: " ", width: 1, pen };
     }
     match text.cell_width() {

@@ -7,6 +7,7 @@ use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
 use crate::physics::Method;
+use crate::printable;
 
 /// Width of the figure and height of one panel with all its words, px.
 const WIDTH: f64 = 760.0;
@@ -200,6 +201,5 @@ fn legend(rows: &[TradeRow], svg: &mut String) {
 }
 
 fn escape(text: &str) -> String {
-    let shown = text.chars().filter(|c| !c.is_control()).collect::<String>();
-    shown.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    printable::escaped(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::horizon::{self, Horizon};
+use super::report::decimal;
 use super::walk::{Budget, Cut, Impact, Instants, walk};
 use super::{GoOn, Interrupted};
 use crate::physics::{Method, Scene, Settings, Simulation, Tallies};
@@ -48,7 +49,7 @@ impl Reference {
     pub fn of(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
         let (mut reference, cut) = Reference::by(scene, settings(until), until, budget, go_on)?;
         if let Some(cut) = cut {
-            reference.doubt = format!("exact {} at {:.4} s", describe(&cut), reference.end);
+            reference.doubt = format!("exact {} at {} s", describe(&cut), decimal(reference.end));
             let (name, dt, tolerance) = STAND_IN;
             if let Some(method) = Method::from_name(name) {
                 let finest = Settings { method, dt, tolerance };

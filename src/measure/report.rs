@@ -8,6 +8,7 @@ use super::sweep::Yardstick;
 use super::trade::STALLED;
 use crate::export::TradeRow;
 use crate::physics::Method;
+use crate::printable;
 
 /// Growth from which positions are worse than rounding by so much that a reader should know.
 const GROWN: f64 = 100.0;
@@ -100,11 +101,17 @@ pub(super) fn short(value: f64, digits: usize) -> String {
 }
 
 fn percent(part: f64) -> String {
+    if part >= FIXED {
+        return format!("{part:.0e}×");
+    }
     if part < 0.995 { format!("{:.0}%", part * 100.0) } else { format!("{:.0}×", part + 1.0) }
 }
 
 /// A time with three digits and its unit.
 pub(super) fn duration(seconds: f64) -> String {
+    if seconds >= FIXED {
+        return format!("{} s", printable::rounded(seconds));
+    }
     let (value, unit) = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")]
         .into_iter()
         .find(|(size, _)| seconds >= *size)
@@ -113,9 +120,20 @@ pub(super) fn duration(seconds: f64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
+/// Figures from here on are written with an exponent.
+const FIXED: f64 = 1e9;
+
+/// A time in s with four decimals.
+pub(super) fn decimal(seconds: f64) -> String {
+    if seconds < FIXED { format!("{seconds:.4}") } else { printable::rounded(seconds) }
+}
+
 /// A time in s with at most four decimals.
 pub(super) fn plain(seconds: f64) -> String {
-    let text = format!("{seconds:.4}");
+    let text = decimal(seconds);
+    if seconds >= FIXED {
+        return text;
+    }
     text.trim_end_matches('0').trim_end_matches('.').into()
 }
 
@@ -177,6 +195,12 @@ mod tests {
     fn durations_have_three_digits_and_a_unit() {
         let words = [2.0, 0.0123, 4.5e-6, 1.5e-8, 123e-6, 0.0].map(duration);
         assert_eq!(words, ["2.00 s", "12.3 ms", "4.50 µs", "15.0 ns", "123 µs", "0.00 ns"]);
+    }
+
+    #[test]
+    fn no_figure_has_a_row_of_zeros() {
+        let largest = [duration(1e308), percent(1e308), plain(1e308), decimal(1e308)];
+        assert_eq!(largest, ["1e308 s", "1e308×", "1e308", "1e308"]);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::export::TradeRow;
 use crate::physics::Method;
+use crate::printable;
 
 /// Part `index` (from 1) of `count`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,8 +60,8 @@ pub fn merge(parts: Vec<Placed>) -> Result<Vec<TradeRow>, String> {
         let (known, first) = horizons.entry(row.scene.clone()).or_insert_with(|| (bits, place.clone())).clone();
         if known != bits {
             return Err(format!(
-                "{place}: the horizon of {:?} differs from that in {first}; they are parts of different sweeps",
-                row.scene
+                "{place}: the horizon of {} differs from that in {first}; they are parts of different sweeps",
+                printable::shortened(&row.scene, 60)
             ));
         }
         if let Some((before, _)) = sorted.insert(key, (place.clone(), row)) {
@@ -80,7 +81,7 @@ fn key(row: &TradeRow) -> Option<(String, usize, u64, u64)> {
 
 fn unknown(place: &str, method: &str) -> String {
     let known: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
-    format!("{place}: method is {method:?}; known are {}", known.join(", "))
+    format!("{place}: method is \"{}\"; known are {}", printable::shortened(method, 60), known.join(", "))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use super::cost::{Cost, cost};
 use super::deviation::{Deviation, common_impacts, impact_time_error};
 use super::ladder::Rung;
 use super::reference::Reference;
+use super::report::decimal;
 use super::walk::{Budget, Cut, Instants, Walk, walk};
 use super::{GoOn, Interrupted};
 use crate::export::TradeRow;
@@ -129,7 +130,7 @@ impl Subject {
             deepest_degree: errors.walk.tallies.deepest_degree,
             impacts: errors.walk.impacts.len() as u64,
             evaluations: errors.walk.tallies.evaluations,
-            cpu_per_s: Some(cost.cpu_per_s),
+            cpu_per_s: Some(cost.cpu_per_s).filter(|cost| cost.is_finite()), // of a run that stalls at its start
             cpu_spread: cost.spread,
             note: doubts.join("; "),
         })
@@ -141,8 +142,10 @@ impl Subject {
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
         let mut doubts = Vec::new();
         match &errors.walk.cut {
-            Some(Cut::Stalled(stall)) => doubts.push(format!("{STALLED} {:.4} s ({})", stall.time, stall.kind)),
-            Some(Cut::Spent | Cut::Enough) => doubts.push(format!("{STALLED} {:.4} s (passes its budget)", errors.end)),
+            Some(Cut::Stalled(stall)) => doubts.push(format!("{STALLED} {} s ({})", decimal(stall.time), stall.kind)),
+            Some(Cut::Spent | Cut::Enough) => {
+                doubts.push(format!("{STALLED} {} s (passes its budget)", decimal(errors.end)))
+            }
             None => {}
         }
         if !doubt.is_empty() {

@@ -3,6 +3,8 @@
 use std::fmt;
 
 use super::locate::{Position, Step, locate};
+use crate::printable::shortened;
+pub(super) use crate::printable::{number as show, rounded as show_rounded};
 
 /// Longest text quoted from a file, characters.
 pub(super) const QUOTE: usize = 60;
@@ -25,10 +27,10 @@ impl Error {
     /// A refusal of a whole file, or of a name that leads to none.
     pub(super) fn whole(origin: &str, message: impl fmt::Display) -> Error {
         Error {
-            origin: clean(origin, ORIGIN),
+            origin: shortened(origin, ORIGIN),
             position: None,
             field: String::new(),
-            message: clean(&message.to_string(), MESSAGE),
+            message: shortened(&message.to_string(), MESSAGE),
         }
     }
 
@@ -75,7 +77,7 @@ impl Source<'_> {
 
     /// A refusal of what stands at a known position, within the value at `path`.
     pub(super) fn refuse_at(&self, position: Option<Position>, path: &[Step], message: impl fmt::Display) -> Error {
-        Error { position, field: clean(&spelled(path), ORIGIN), ..Error::whole(self.origin, message) }
+        Error { position, field: shortened(&spelled(path), ORIGIN), ..Error::whole(self.origin, message) }
     }
 }
 
@@ -92,40 +94,9 @@ fn spelled(path: &[Step]) -> String {
     text
 }
 
-/// Text from outside as it may be printed: control, direction and invisible format characters replaced, cut after
-/// `limit` characters.
-pub(super) fn clean(text: &str, limit: usize) -> String {
-    let shown = |c: char| if c.is_control() || is_format(c) { char::REPLACEMENT_CHARACTER } else { c };
-    let mut cleaned: String = text.chars().take(limit).map(shown).collect();
-    if text.chars().nth(limit).is_some() {
-        cleaned.push('…');
-    }
-    cleaned
-}
-
 /// A piece of the file in a message, in backticks.
 pub(super) fn quote(text: &str) -> String {
-    format!("`{}`", clean(text, QUOTE))
-}
-
-/// A number in a message: the shortest digits that read back, with an exponent where a row of zeros would stand.
-pub(super) fn show(value: f64) -> String {
-    let plain = value == 0.0 || !value.is_finite() || (1e-5..1e16).contains(&value.abs());
-    if plain { format!("{value}") } else { format!("{value:e}") }
-}
-
-/// A measured number in a message, to four digits.
-pub(super) fn show_rounded(value: f64) -> String {
-    show(format!("{value:.3e}").parse().unwrap_or(value))
-}
-
-/// Characters that move or hide their neighbours (Unicode 16: soft hyphen, bidirectional controls, joiners, tags …).
-pub(super) fn is_format(c: char) -> bool {
-    matches!(
-        c,
-        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}'
-    )
+    format!("`{}`", shortened(text, QUOTE))
 }
 
 #[cfg(test)]
@@ -133,20 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_escape_sequence_and_no_direction_change_survives() {
-        let hostile = "a\u{1b}[2Jb\nc\u{202e}d\u{9b}e";
-        assert_eq!(clean(hostile, 99), "a\u{fffd}[2Jb\u{fffd}c\u{fffd}d\u{fffd}e");
-    }
-
-    #[test]
     fn long_values_are_cut() {
         assert_eq!(quote(&"x".repeat(1_000_000)).chars().count(), QUOTE + 3);
-    }
-
-    #[test]
-    fn numbers_read_as_people_write_them() {
-        let shown = [0.0, -1.0, 0.1, 1e300, 1e-9, f64::INFINITY, f64::NAN].map(show);
-        assert_eq!(shown, ["0", "-1", "0.1", "1e300", "1e-9", "inf", "NaN"]);
-        assert_eq!(show_rounded(0.123_456), "0.1235");
     }
 }

@@ -3,10 +3,11 @@
 use serde::Deserialize;
 use serde_path_to_error::Segment;
 
-use super::error::{Error, Source, clean, quote};
+use super::error::{Error, Source, quote};
 use super::locate::{Position, Step, locate, position, rest_at};
 use super::number::{Amount, Count, Fraction, Interval, NotNegative, Positive, Rgb, Text, Vector, method};
 use super::{Method, error::QUOTE};
+use crate::printable::shortened;
 
 /// A scene file.
 #[derive(Debug, Deserialize)]
@@ -177,7 +178,9 @@ fn sentence(code: &ron::Error, rest: &str) -> String {
         }
         MissingStructField { field, .. } => format!("the field {} is missing", quote(field)),
         DuplicateStructField { field, .. } => format!("the field {} is given twice", quote(field)),
-        InvalidValueForType { expected, found } => format!("{} is refused; allowed is {expected}", clean(found, QUOTE)),
+        InvalidValueForType { expected, found } => {
+            format!("{} is refused; allowed is {expected}", shortened(found, QUOTE))
+        }
         ExpectedDifferentLength { expected, found } => {
             format!("a tuple of size {found} is refused; allowed is {expected}")
         }

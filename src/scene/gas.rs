@@ -10,6 +10,7 @@ use std::f64::consts::{FRAC_PI_6, SQRT_2};
 use glam::DVec3;
 
 use super::Sphere;
+use super::effort::{Effort, SLANTED};
 use super::error::{show, show_rounded};
 use super::generate::SplitMix64;
 use crate::geometry::{Bounds, Parallelogram};
@@ -33,6 +34,7 @@ const DENSEST: f64 = FRAC_PI_6 * SQRT_2;
 pub(super) struct Obstacles<'a> {
     pub(super) walls: &'a [Parallelogram],
     pub(super) spheres: &'a [Sphere],
+    pub(super) effort: &'a Effort,
 }
 
 /// Centres (m) of `count` spheres of radius `r` (m) whose surfaces stay within `bounds` (m).
@@ -65,13 +67,17 @@ pub(super) fn strewn(
     }
     let field = Field::new(bounds, count, r, obstacles);
     let sparse = if fraction <= SPARSE { inserted(&field, inner, count, draw) } else { None };
-    sparse.map_or_else(|| latticed(&field, bounds, count, draw).map_err(too_many), Ok)
+    let strewn = sparse.map_or_else(|| latticed(&field, bounds, count, draw).map_err(too_many), Ok);
+    if obstacles.effort.spent() { Err(Effort::refusal()) } else { strewn }
 }
 
 /// Random insertion; none if the draws run out.
 fn inserted(field: &Field, inner: Bounds, count: usize, draw: &mut SplitMix64) -> Option<Vec<DVec3>> {
     let mut gas = Placed::new(field, count);
     for _ in 0..count.saturating_mul(DRAWS) + 1000 {
+        if field.obstacles.effort.spent() {
+            return None;
+        }
         let center = inner.min + inner.size() * draw.units();
         if field.is_free(center) && gas.is_free(center) {
             gas.place(center);
@@ -98,6 +104,9 @@ fn latticed(field: &Field, bounds: Bounds, count: usize, draw: &mut SplitMix64) 
             return Ok(centers);
         }
         most = most.max(centers.len());
+        if field.obstacles.effort.spent() {
+            return Err(most);
+        }
         if spacing <= 2.0 * field.r {
             return Err(most);
         }
@@ -122,7 +131,7 @@ fn on_lattice(field: &Field, bounds: Bounds, counts: DVec3, count: usize, draw: 
         let corner = bounds.min + cell * index + DVec3::splat(field.r);
         let free = (0..SHIFTS).map(|_| corner + slack * draw.units()).find(|&center| field.is_free(center));
         centers.extend(free);
-        if centers.len() == count {
+        if centers.len() == count || field.obstacles.effort.spent() {
             break;
         }
     }
@@ -157,17 +166,55 @@ impl<'a> Field<'a> {
         let (cell, counts) = cells(bounds, count, r);
         let reaching = vec![Vec::new(); counts.iter().product()];
         let mut field = Field { bounds, r, cell, counts, obstacles, reaching };
-        let walls = obstacles.walls.iter().map(Parallelogram::bounds);
-        let spheres = obstacles.spheres.iter().map(|sphere| Bounds::around(sphere.x, sphere.radius));
-        for (index, body) in walls.chain(spheres).enumerate() {
-            let reach = body.grown(r);
-            if reach.touches(&bounds) {
-                for cell in field.cells_of(reach) {
-                    field.reaching[cell].push(index as u32);
-                }
-            }
+        for (index, wall) in obstacles.walls.iter().enumerate() {
+            field.enter(index as u32, wall.bounds(), |block| obstacles.effort.spend(SLANTED) && wall.may_touch(block));
+        }
+        for (index, sphere) in obstacles.spheres.iter().enumerate() {
+            let around = Bounds::around(sphere.x, sphere.radius);
+            field.enter((obstacles.walls.len() + index) as u32, around, |block| block.touches(&around));
         }
         field
+    }
+
+    /// Notes a body in the cells from which spheres reach it, if `touches` tells of any box whether the body does.
+    fn enter(&mut self, body: u32, around: Bounds, touches: impl Fn(&Bounds) -> bool) {
+        let reach = around.grown(self.r);
+        if !self.obstacles.effort.spend(1) || !reach.touches(&self.bounds) {
+            return;
+        }
+        let mut open = vec![(self.coordinates(reach.min), self.coordinates(reach.max))];
+        while let Some((low, high)) = open.pop() {
+            if !self.obstacles.effort.spend(1) {
+                return;
+            }
+            if !touches(&self.block(low, high).grown(self.r)) {
+                continue;
+            }
+            let axis = (0..3).fold(0, |best, k| if high[k] - low[k] > high[best] - low[best] { k } else { best });
+            if low[axis] == high[axis] {
+                let [_, ny, nz] = self.counts;
+                self.reaching[(low[0] * ny + low[1]) * nz + low[2]].push(body);
+                continue;
+            }
+            let middle = usize::midpoint(low[axis], high[axis]);
+            let (mut first, mut second) = ((low, high), (low, high));
+            (first.1[axis], second.0[axis]) = (middle, middle + 1);
+            open.extend([first, second]);
+        }
+    }
+
+    /// The box of a block of cells, with all that lies beyond the field behind its outermost cells.
+    fn block(&self, low: [usize; 3], high: [usize; 3]) -> Bounds {
+        let (mut min, mut max) = (DVec3::ZERO, DVec3::ZERO);
+        for axis in 0..3 {
+            // A hair's breadth more than the cells: rounding may put a centre on either side of their border.
+            let hair = 1e-9 * self.cell;
+            min[axis] = self.bounds.min[axis] + self.cell * low[axis] as f64 - hair;
+            let last = high[axis] + 1 == self.counts[axis];
+            let end = self.bounds.min[axis] + self.cell * (high[axis] + 1) as f64 + hair;
+            max[axis] = if last { end.max(self.bounds.max[axis] + hair) } else { end };
+        }
+        Bounds { min, max }
     }
 
     fn coordinates(&self, p: DVec3) -> [usize; 3] {
@@ -193,7 +240,10 @@ impl<'a> Field<'a> {
         let walls = self.obstacles.walls;
         // A box as thin as the spheres leaves only places that touch: rounding must not close them.
         let r = self.r * (1.0 - TOUCH);
-        self.reaching[self.cell_of(center)].iter().all(|&index| match walls.get(index as usize) {
+        let reaching = &self.reaching[self.cell_of(center)];
+        let slanted = reaching.partition_point(|&index| (index as usize) < self.obstacles.walls.len());
+        self.obstacles.effort.spend(1 + reaching.len() as u64 + SLANTED * slanted as u64);
+        reaching.iter().all(|&index| match walls.get(index as usize) {
             Some(wall) => wall.distance(center) >= r,
             None => {
                 let sphere = &self.obstacles.spheres[index as usize - walls.len()];
@@ -251,21 +301,24 @@ impl<'a> Placed<'a> {
 mod tests {
     use super::*;
 
-    const NOTHING: Obstacles = Obstacles { walls: &[], spheres: &[] };
-
     fn cube(edge: f64) -> Bounds {
         Bounds { min: DVec3::ZERO, max: DVec3::splat(edge) }
     }
 
-    fn strew(count: usize, r: f64, obstacles: &Obstacles) -> Result<Vec<DVec3>, String> {
-        strewn(cube(10.0), count, r, obstacles, &mut SplitMix64::new(7))
+    fn strew(count: usize, r: f64) -> Result<Vec<DVec3>, String> {
+        strew_among(&[], &[], count, r)
+    }
+
+    fn strew_among(walls: &[Parallelogram], spheres: &[Sphere], count: usize, r: f64) -> Result<Vec<DVec3>, String> {
+        let obstacles = Obstacles { walls, spheres, effort: &Effort::whole() };
+        strewn(cube(10.0), count, r, &obstacles, &mut SplitMix64::new(7))
     }
 
     #[test]
     fn sparse_and_dense_gases_are_disjoint_and_inside() {
         // Packing fractions 0.004, 0.1, 0.2, 0.3 and 0.45: the first three by insertion, the others over a lattice.
         for count in [8, 191, 381, 573, 860] {
-            let centers = strew(count, 0.5, &NOTHING).expect("it fits");
+            let centers = strew(count, 0.5).expect("it fits");
             assert_eq!(centers.len(), count);
             assert!(centers.iter().all(|&x| cube(10.0).grown(-0.5).contains(x)));
             let apart = |(i, &a): (usize, &DVec3)| centers[..i].iter().all(|b| a.distance(*b) >= 1.0 - 1e-12);
@@ -286,25 +339,25 @@ mod tests {
             color: None,
             name: None,
         };
-        let obstacles = Obstacles { walls: &[wall], spheres: std::slice::from_ref(&earlier) };
         for count in [150, 350] {
-            let centers = strew(count, 0.5, &obstacles).expect("it fits");
+            let centers = strew_among(&[wall], std::slice::from_ref(&earlier), count, 0.5).expect("it fits");
             assert!(centers.iter().all(|&x| wall.distance(x) >= 0.5 - 1e-12 && x.distance(earlier.x) >= 2.0 - 1e-12));
         }
     }
 
     #[test]
     fn what_cannot_fit_is_refused_and_soon() {
-        assert!(strew(1500, 0.5, &NOTHING).is_err_and(|message| message.contains("0.7854 of the box")));
-        assert!(strew(1, 6.0, &NOTHING).is_err());
-        assert!(strew(1200, 0.5, &NOTHING).is_err(), "0.63 is above every cubic lattice");
-        assert!(strew(1000, 0.5, &NOTHING).is_ok(), "ten by ten by ten is the tightest lattice");
+        assert!(strew(1500, 0.5).is_err_and(|message| message.contains("0.7854 of the box")));
+        assert!(strew(1, 6.0).is_err());
+        assert!(strew(1200, 0.5).is_err(), "0.63 is above every cubic lattice");
+        assert!(strew(1000, 0.5).is_ok(), "ten by ten by ten is the tightest lattice");
     }
 
     #[test]
     fn thin_and_long_boxes_work() {
         let thin = Bounds { min: DVec3::ZERO, max: DVec3::new(1e6, 1.0, 1.0) };
-        let centers = strewn(thin, 2000, 0.5, &NOTHING, &mut SplitMix64::new(1)).expect("one in five hundred metres");
+        let nothing = Obstacles { walls: &[], spheres: &[], effort: &Effort::whole() };
+        let centers = strewn(thin, 2000, 0.5, &nothing, &mut SplitMix64::new(1)).expect("one in five hundred metres");
         assert!(centers.iter().all(|x| x.y == 0.5 && x.z == 0.5));
     }
 

@@ -1,14 +1,19 @@
 //! The validated scene: whatever holds a [`Scene`] may rely on every rule of `rules`.
 //!
 //! A name or path becomes text (`open`, `builtin`), the text its RON shape (`file`, whose numbers are types of `number`),
-//! the shape bodies (`generate`, `gas`), and the bodies a scene (`rules`, with `near` to find overlaps). Whatever is
+//! the shape bodies (`generate`, `gas`), and the bodies a scene (`rules`, with
+//! `size` for what is too much, `overlaps` and `near`, within an `effort`). Whatever is
 //! refused is an [`Error`] that names its place (`locate`).
 
 use glam::DVec3;
 
+use std::ffi::OsStr;
+
 use crate::geometry::{Bounds, Parallelogram};
+use crate::printable;
 
 pub mod builtin;
+mod effort;
 mod error;
 mod file;
 mod gas;
@@ -17,13 +22,15 @@ mod locate;
 mod near;
 mod number;
 mod open;
+mod overlaps;
 mod rules;
+mod size;
 mod warnings;
 
 pub use error::Error;
 pub use locate::Position;
-pub use open::{Opened, open};
-pub use warnings::warnings;
+pub use open::{Opened, contents, open};
+pub use warnings::{endless, warnings};
 
 /// The scene written in `text`. `origin`, a path or name, is what errors call it; a scene without a name takes its
 /// file stem.
@@ -37,10 +44,13 @@ pub fn parse(text: &str, origin: &str) -> Result<Scene, Error> {
     rules::validated(file::read(source)?, source)
 }
 
-/// The file stem of a path, or the name itself, without control characters and of bounded length.
-fn key(origin: &str) -> String {
-    let stem = std::path::Path::new(origin).file_stem().map_or(origin.into(), |stem| stem.to_string_lossy());
-    stem.chars().filter(|&c| !c.is_control() && !error::is_format(c)).take(100).collect()
+/// Longest key, characters.
+const KEY: usize = 100;
+
+/// The file stem of a path, or the name itself, printable and of bounded length.
+fn key(origin: &OsStr) -> String {
+    let stem = std::path::Path::new(origin).file_stem().unwrap_or(origin);
+    printable::name(stem).chars().take(KEY).collect()
 }
 
 /// An sRGB colour, each channel in [0, 1].

@@ -1,54 +1,82 @@
-//! Which bodies are near each other: boxes halved again and again until few are left, whatever their sizes. A grid
-//! would need one cell size for a dust grain and a planet.
+//! Which spheres are near a body: a tree of boxes, halved again and again until few spheres are left, whatever their
+//! sizes. A grid would need one cell size for a dust grain and a planet.
 
 use crate::geometry::Bounds;
 
-/// So few boxes are compared each with each.
-const FEW: usize = 32;
+/// So few boxes are looked at one by one.
+const FEW: usize = 8;
 
-/// The first two bodies (by the order of the search, the same on every machine) whose boxes touch and for which `hit`
-/// says true. Costs about n log n for bodies that do not overlap.
-pub(super) fn first_hit(boxes: &[Bounds], hit: &impl Fn(usize, usize) -> bool) -> Option<(usize, usize)> {
-    search(boxes, (0..boxes.len() as u32).collect(), hit)
+/// A box of the tree, and the spheres in it: `order[from..to]`.
+#[derive(Debug)]
+struct Node {
+    bounds: Bounds,
+    from: usize,
+    to: usize,
+    /// The upper half; the lower one is the next node. None: a leaf.
+    upper: Option<usize>,
 }
 
-fn search(boxes: &[Bounds], bodies: Vec<u32>, hit: &impl Fn(usize, usize) -> bool) -> Option<(usize, usize)> {
-    if bodies.len() > FEW {
-        for axis in widest_axes(boxes, &bodies) {
-            if let Some((low, high)) = halves(boxes, &bodies, axis) {
-                drop(bodies);
-                return search(boxes, low, hit).or_else(|| search(boxes, high, hit));
-            }
+/// Spheres by place.
+#[derive(Debug)]
+pub(super) struct Tree<'a> {
+    boxes: &'a [Bounds],
+    order: Vec<u32>,
+    nodes: Vec<Node>,
+}
+
+impl<'a> Tree<'a> {
+    /// The tree of these boxes; about n log n.
+    pub(super) fn new(boxes: &'a [Bounds]) -> Tree<'a> {
+        let mut tree = Tree { boxes, order: (0..boxes.len() as u32).collect(), nodes: Vec::new() };
+        if !boxes.is_empty() {
+            tree.grow(0, boxes.len());
         }
+        tree
     }
-    let pairs =
-        bodies.iter().enumerate().flat_map(|(i, &a)| bodies[i + 1..].iter().map(move |&b| (a.min(b), a.max(b))));
-    pairs.map(|(a, b)| (a as usize, b as usize)).find(|&(a, b)| boxes[a].touches(&boxes[b]) && hit(a, b))
-}
 
-/// The axes, by how far the centres spread along them.
-fn widest_axes(boxes: &[Bounds], bodies: &[u32]) -> [usize; 3] {
-    let center = |&body: &u32| boxes[body as usize].center();
-    let spread = Bounds::of(bodies.iter().map(|body| Bounds { min: center(body), max: center(body) }))
-        .map_or(glam::DVec3::ZERO, |bounds| bounds.size());
-    let mut axes = [0, 1, 2];
-    axes.sort_by(|&a, &b| spread[b].total_cmp(&spread[a]));
-    axes
-}
+    /// Appends the node of `order[from..to]` and those below it. Halves have as many boxes, so the tree is shallow.
+    fn grow(&mut self, from: usize, to: usize) {
+        let boxes = self.boxes;
+        let of = |order: &[u32], part: fn(&Bounds) -> Bounds| {
+            Bounds::of(order.iter().map(|&body| part(&boxes[body as usize])))
+                .unwrap_or(Bounds { min: glam::DVec3::ZERO, max: glam::DVec3::ZERO })
+        };
+        let index = self.nodes.len();
+        let bounds = of(&self.order[from..to], |bounds| *bounds);
+        self.nodes.push(Node { bounds, from, to, upper: None });
+        if to - from <= FEW {
+            return;
+        }
+        let centers = of(&self.order[from..to], |bounds| Bounds { min: bounds.center(), max: bounds.center() });
+        let axis = (0..3).fold(0, |best, axis| if centers.size()[axis] > centers.size()[best] { axis } else { best });
+        let middle = (to - from) / 2;
+        let center = |body: u32| boxes[body as usize].center()[axis];
+        self.order[from..to].select_nth_unstable_by(middle, |&a, &b| center(a).total_cmp(&center(b)).then(a.cmp(&b)));
+        self.grow(from, from + middle);
+        self.nodes[index].upper = Some(self.nodes.len());
+        self.grow(from + middle, to);
+    }
 
-/// The bodies on either side of the median centre, those across it on both; none if that helps little, because most
-/// boxes lie across.
-fn halves(boxes: &[Bounds], bodies: &[u32], axis: usize) -> Option<(Vec<u32>, Vec<u32>)> {
-    let mut centers: Vec<f64> = bodies.iter().map(|&body| boxes[body as usize].center()[axis]).collect();
-    let middle = centers.len() / 2;
-    let plane = *centers.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let side = |keep: &dyn Fn(&Bounds) -> bool| -> Vec<u32> {
-        bodies.iter().copied().filter(|&body| keep(&boxes[body as usize])).collect()
-    };
-    let low = side(&|bounds| bounds.min[axis] <= plane);
-    let high = side(&|bounds| bounds.max[axis] >= plane);
-    let helps = low.len() + high.len() <= bodies.len() * 8 / 5 && low.len().max(high.len()) <= bodies.len() * 19 / 20;
-    helps.then_some((low, high))
+    /// The sphere of lowest index that `hit`s, among those whose boxes `touches` says yes to. It must say yes to every
+    /// box that holds such a box.
+    pub(super) fn first(&self, touches: impl Fn(&Bounds) -> bool, hit: impl Fn(usize) -> bool) -> Option<usize> {
+        let mut found: Option<usize> = None;
+        let mut open = Vec::from_iter((!self.nodes.is_empty()).then_some(0));
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index];
+            if !touches(&node.bounds) {
+                continue;
+            }
+            if let Some(upper) = node.upper {
+                open.extend([upper, index + 1]);
+                continue;
+            }
+            let near = self.order[node.from..node.to].iter().map(|&body| body as usize);
+            let hits = near.filter(|&body| touches(&self.boxes[body]) && hit(body)).min();
+            found = [found, hits].into_iter().flatten().min();
+        }
+        found
+    }
 }
 
 #[cfg(test)]
@@ -62,17 +90,45 @@ mod tests {
     }
 
     #[test]
-    fn every_touching_pair_is_offered() {
+    fn every_touching_box_is_offered_and_the_first_is_found() {
         let mut boxes = cubes(7);
         boxes.push(Bounds { min: DVec3::new(2.0, -1.0, 2.0), max: DVec3::new(2.1, 9.0, 3.1) });
-        let offered = std::cell::RefCell::new(std::collections::BTreeSet::new());
-        first_hit(&boxes, &|a, b| {
-            offered.borrow_mut().insert((a, b));
-            false
-        });
-        let all = (0..boxes.len()).flat_map(|a| (a + 1..boxes.len()).map(move |b| (a, b)));
-        let expected: std::collections::BTreeSet<_> = all.filter(|&(a, b)| boxes[a].touches(&boxes[b])).collect();
-        assert_eq!(offered.into_inner(), expected);
-        assert_eq!(expected.len(), 14, "two columns of seven");
+        boxes.push(Bounds::around(DVec3::splat(3.0), 9.0));
+        let tree = Tree::new(&boxes);
+        for body in &boxes {
+            let offered = std::cell::RefCell::new(Vec::new());
+            let found = tree.first(
+                |bounds| bounds.touches(body),
+                |near| {
+                    offered.borrow_mut().push(near);
+                    near % 5 == 3
+                },
+            );
+            let mut offered = offered.into_inner();
+            offered.sort_unstable();
+            let expected: Vec<usize> = (0..boxes.len()).filter(|&near| boxes[near].touches(body)).collect();
+            assert_eq!(offered, expected, "{body:?}");
+            assert_eq!(found, expected.into_iter().find(|near| near % 5 == 3));
+        }
+    }
+
+    #[test]
+    fn a_search_costs_no_more_than_the_depth_of_the_tree_and_what_is_there() {
+        let boxes = cubes(30);
+        let (tree, asked) = (Tree::new(&boxes), std::cell::Cell::new(0));
+        for body in &boxes {
+            let touches = |bounds: &Bounds| {
+                asked.set(asked.get() + 1);
+                bounds.touches(body)
+            };
+            assert!(tree.first(touches, |_| false).is_none());
+        }
+        // 27 000 searches down 12 levels, both halves looked at in each, and one leaf of 8 or a neighbouring one.
+        assert!(asked.get() < 27_000 * 80, "{}", asked.get());
+    }
+
+    #[test]
+    fn nothing_is_near_nothing() {
+        assert_eq!(Tree::new(&[]).first(|_| true, |_| true), None);
     }
 }

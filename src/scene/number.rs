@@ -5,8 +5,9 @@ use std::fmt;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::error::{is_format, quote, show};
+use super::error::{quote, show};
 use super::{Color, Method};
+use crate::printable::{described, is_printable};
 
 /// Largest magnitude of a coordinate, speed, mass or radius, in SI units. Beyond it the products of the solvers
 /// (areas squared, masses times squared speeds) would come near the end of f64.
@@ -15,6 +16,9 @@ pub(super) const LARGEST: f64 = 1e30;
 pub(super) const SMALLEST: f64 = 1e-30;
 /// Most spheres in a scene.
 pub(super) const MOST_SPHERES: usize = 1_000_000;
+/// Most walls in a scene, a room's six counted. Every sphere of `paper` asks for every wall in every frame, so that more
+/// would be of no use to anybody.
+pub(super) const MOST_WALLS: usize = 100_000;
 /// Longest name or `about`, characters.
 const LONGEST_TEXT: usize = 300;
 
@@ -123,11 +127,9 @@ impl TryFrom<String> for Text {
     type Error = String;
 
     fn try_from(text: String) -> Result<Text, String> {
-        if let Some(c) = text.chars().find(|&c| c.is_control() || is_format(c)) {
-            return Err(format!(
-                "the character U+{:04X} is refused; allowed is text without control characters",
-                c as u32
-            ));
+        if let Some(c) = text.chars().find(|&c| !is_printable(c)) {
+            let what = described(c);
+            return Err(format!("the character {what} is refused; allowed is text of characters that can be seen"));
         }
         match text.chars().count() {
             count if count > LONGEST_TEXT => {

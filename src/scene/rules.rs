@@ -3,18 +3,18 @@
 
 use glam::DVec3;
 
+use super::effort::Effort;
 use super::error::{Error, Source, quote, show, show_rounded};
 use super::file::{BoxFile, ContactFile, SceneFile, SolverFile, SphereFile, WallFile};
 use super::gas::{Obstacles, strewn};
 use super::generate::{SIDES, SplitMix64, lattice, room, thermal};
 use super::locate::Step::{self, Field, Index};
-use super::near::first_hit;
-use super::number::{Amount, LARGEST, MOST_SPHERES, SMALLEST};
+use super::number::{Amount, LARGEST, SMALLEST};
+use super::overlaps::refuse_overlaps;
+use super::size::refuse_too_large;
 use super::{ContactLaw, Method, Scene, Settings, Sphere, Wall};
 use crate::geometry::{Bounds, Parallelogram};
 
-/// Overlap that a scene may start with, in radii (of a pair: in sums of radii).
-const OVERLAP: f64 = 1e-9;
 /// Sine of the angle below which two edges count as parallel: their plane would be rounding alone.
 const PARALLEL: f64 = 1e-9;
 /// Walls that reach so many times beyond the spheres' box are not shown whole.
@@ -24,15 +24,17 @@ const DURATION: f64 = 20.0;
 
 /// The scene of a file, if it meets every rule.
 pub(super) fn validated(file: SceneFile, source: Source) -> Result<Scene, Error> {
+    let effort = Effort::whole();
+    refuse_too_large(&file, source)?;
     let walls = Bodies::walls(&file.walls, source)?;
-    let spheres = Bodies::spheres(&file.spheres, &walls.list, source)?;
-    refuse_overlaps(&walls, &spheres, source)?;
+    let spheres = Bodies::spheres(&file.spheres, (&walls.list, &effort), source)?;
+    refuse_overlaps(&walls, &spheres, &effort, source)?;
     let view = match file.view {
         Some(view) => bounds(view, &[Field("view")], source)?,
         None => default_view(&walls.list, &spheres.list),
     };
     Ok(Scene {
-        name: file.name.map_or_else(|| super::key(source.origin), |name| name.0),
+        name: file.name.map_or_else(|| super::key(source.origin.as_ref()), |name| name.0),
         about: file.about.0,
         gravity: file.gravity.0,
         contact: contact_law(&file.contact),
@@ -78,8 +80,8 @@ fn bounds(file: BoxFile, path: &[Step], source: Source) -> Result<Bounds, Error>
 }
 
 /// Bodies and, for each, the entry of the file that it came from.
-struct Bodies<T> {
-    list: Vec<T>,
+pub(super) struct Bodies<T> {
+    pub(super) list: Vec<T>,
     entries: Vec<u32>,
 }
 
@@ -93,7 +95,7 @@ impl<T> Bodies<T> {
         self.entries.resize(self.list.len(), entry as u32);
     }
 
-    fn entry(&self, body: usize) -> usize {
+    pub(super) fn entry(&self, body: usize) -> usize {
         self.entries[body] as usize
     }
 
@@ -131,7 +133,7 @@ impl Bodies<Wall> {
         }
     }
 
-    fn describe(&self, wall: usize) -> String {
+    pub(super) fn describe(&self, wall: usize) -> String {
         let entry = self.entry(wall);
         match self.place_in_entry(wall) {
             Some(side) => format!("wall {wall} (the {} of walls[{entry}])", SIDES[side]),
@@ -157,20 +159,19 @@ fn refuse_degenerate(shape: &Parallelogram, path: &[Step], source: Source) -> Re
 }
 
 impl Bodies<Sphere> {
-    fn spheres(entries: &[SphereFile], walls: &[Wall], source: Source) -> Result<Bodies<Sphere>, Error> {
+    fn spheres(
+        entries: &[SphereFile],
+        (walls, effort): (&[Wall], &Effort),
+        source: Source,
+    ) -> Result<Bodies<Sphere>, Error> {
         let shapes: Vec<Parallelogram> = walls.iter().map(|wall| wall.shape).collect();
         let mut spheres = Bodies::new();
         for (entry, file) in entries.iter().enumerate() {
             let path = [Field("spheres"), Index(entry)];
-            let wanted = wanted(file).saturating_add(spheres.list.len());
-            if wanted > MOST_SPHERES {
-                let message = format!("with it the scene has {wanted} spheres; allowed are up to {MOST_SPHERES}");
-                return Err(source.refuse(&path, message));
-            }
             let made = match file {
                 SphereFile::Gas { min, max, .. } => {
                     let bounds = bounds(BoxFile { min: *min, max: *max }, &path, source)?;
-                    let obstacles = Obstacles { walls: &shapes, spheres: &spheres.list };
+                    let obstacles = Obstacles { walls: &shapes, spheres: &spheres.list, effort };
                     gas(file, bounds, &obstacles).map_err(|message| source.refuse(&path, message))?
                 }
                 SphereFile::Lattice { .. } => crystal(file),
@@ -182,20 +183,11 @@ impl Bodies<Sphere> {
         Ok(spheres)
     }
 
-    fn describe(&self, sphere: usize) -> String {
+    pub(super) fn describe(&self, sphere: usize) -> String {
         let entry = self.entry(sphere);
         let place = self.place_in_entry(sphere).map_or(String::new(), |place| format!(", its number {place}"));
         let name = self.list[sphere].name.as_deref().map_or(String::new(), |name| format!(", {}", quote(name)));
         format!("sphere {sphere} (spheres[{entry}]{place}{name})")
-    }
-}
-
-/// How many spheres an entry makes.
-fn wanted(file: &SphereFile) -> usize {
-    match file {
-        SphereFile::Sphere { .. } => 1,
-        SphereFile::Gas { count, .. } => count.0,
-        SphereFile::Lattice { counts: (x, y, z), .. } => x.0.saturating_mul(y.0).saturating_mul(z.0),
     }
 }
 
@@ -260,40 +252,6 @@ fn set_in_motion(centers: Vec<DVec3>, speed: Option<Amount>, like: &Sphere, draw
     };
     let moved = |(x, v): (DVec3, DVec3)| Sphere { x, v: like.v + v, ..like.clone() };
     centers.into_iter().zip(velocities).map(moved).collect()
-}
-
-/// Refuses the first two bodies found that overlap by more than rounding.
-fn refuse_overlaps(walls: &Bodies<Wall>, spheres: &Bodies<Sphere>, source: Source) -> Result<(), Error> {
-    let all = &spheres.list;
-    let of_spheres = all.iter().map(|sphere| Bounds::around(sphere.x, sphere.radius));
-    let boxes: Vec<Bounds> = of_spheres.chain(walls.list.iter().map(|wall| wall.shape.bounds())).collect();
-    let depth = |a: usize, b: usize| match b.checked_sub(all.len()) {
-        None => pair_depth(&all[a], &all[b]),
-        Some(wall) if a < all.len() => wall_depth(&all[a], &walls.list[wall]),
-        Some(_) => None,
-    };
-    let Some((a, b)) = first_hit(&boxes, &|a, b| depth(a, b).is_some()) else { return Ok(()) };
-    let other = b.checked_sub(all.len()).map_or_else(|| spheres.describe(b), |wall| walls.describe(wall));
-    let later = if b < all.len() { b } else { a };
-    let message = format!(
-        "{} overlaps {other} by {} m; allowed is up to 1e-9 of the radius",
-        spheres.describe(a),
-        show_rounded(depth(a, b).unwrap_or(0.0)),
-    );
-    Err(source.refuse(&[Field("spheres"), Index(spheres.entry(later))], message))
-}
-
-/// How deep two spheres overlap, m, if deeper than allowed.
-fn pair_depth(a: &Sphere, b: &Sphere) -> Option<f64> {
-    let reach = a.radius + b.radius;
-    let depth = reach - a.x.distance(b.x);
-    (depth > OVERLAP * reach).then_some(depth)
-}
-
-/// How deep a sphere overlaps the closest point of a wall, m, if deeper than allowed.
-fn wall_depth(sphere: &Sphere, wall: &Wall) -> Option<f64> {
-    let depth = sphere.radius - wall.shape.distance(sphere.x);
-    (depth > OVERLAP * sphere.radius).then_some(depth)
 }
 
 /// What the screen shows if the scene does not say: the walls' box and the spheres with it, or twice the spheres' box

@@ -3,6 +3,7 @@
 use super::error::show_rounded;
 use super::{Method, Scene, Settings, Sphere};
 use crate::geometry::Bounds;
+use crate::printable::count;
 
 /// Spacings of the numbers around a coordinate that a radius should hold at least: fewer, and the gap is mostly rounding.
 const RESOLVED: f64 = 1e6;
@@ -10,10 +11,15 @@ const RESOLVED: f64 = 1e6;
 /// Frames that nobody waits for: at a nanosecond each, a quarter of an hour.
 const FRAMES: f64 = 1e12;
 
-/// Sentences on what is allowed in the scene, solved with `settings`, but probably not meant; none for most scenes.
-pub fn warnings(scene: &Scene, settings: Settings) -> Vec<String> {
+/// How many times its own duration a scene without frames runs while somebody waits: at a microsecond each, a quarter
+/// of an hour.
+const DURATIONS: f64 = 1e9;
+
+/// Sentences on what is allowed in the scene, solved with `settings` up to `until` (s), but probably not meant; none for
+/// most scenes.
+pub fn warnings(scene: &Scene, settings: Settings, until: f64) -> Vec<String> {
     let of_the_scene = [restitution(scene), empty(scene), outside_view(scene), outside_walls(scene), rounding(scene)];
-    let of_the_settings = [tunnels(scene, settings), endless(scene, settings)];
+    let of_the_settings = [tunnels(scene, settings), endless(scene, settings, until)];
     of_the_scene.into_iter().chain(of_the_settings).flatten().collect()
 }
 
@@ -46,10 +52,21 @@ fn outside_walls(scene: &Scene) -> Option<String> {
     counted(scene, outside).map(|who| format!("{who} outside the box of all walls"))
 }
 
-fn endless(scene: &Scene, Settings { dt, .. }: Settings) -> Option<String> {
-    (scene.duration / dt > FRAMES).then(|| {
-        let (duration, dt) = (show_rounded(scene.duration), show_rounded(dt));
-        format!("{duration} s take more than 1e12 frames of {dt} s: nobody will see the end; raise dt")
+/// What must be said of a run to `until` (s) whose end nobody will see.
+pub fn endless(scene: &Scene, Settings { method, dt, .. }: Settings, until: f64) -> Option<String> {
+    let end = show_rounded(until);
+    if method == Method::Exact {
+        let times = until / scene.duration;
+        let long = scene.duration > 0.0 && times > DURATIONS;
+        return long.then(|| {
+            let times = count(times);
+            format!("{end} s are {times} times the scene's duration: if it never rests, nobody will see the end")
+        });
+    }
+    let frames = until / dt;
+    (frames > FRAMES).then(|| {
+        let (frames, dt) = (count(frames), show_rounded(dt));
+        format!("{end} s take {frames} frames of {dt} s: nobody will see the end; raise dt or end sooner")
     })
 }
 

@@ -15,6 +15,7 @@ pub use crate::audit::Alarm;
 use crate::geometry::Bounds;
 pub use crate::physics::{Class, Contact, Kind, Probe, Tallies};
 use crate::physics::{Scene, Simulation, Stall, State};
+use crate::printable;
 
 /// What does not change during a run; built once per scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +46,7 @@ impl Stage {
     /// What stays constant of `scene`, opened by the name `key`.
     pub fn of(key: &str, scene: &Scene) -> Stage {
         Stage {
-            key: key.chars().filter(|c| !c.is_control()).collect(),
+            key: printable::escaped(key),
             name: scene.name.clone(),
             about: scene.about.clone(),
             duration: scene.duration,

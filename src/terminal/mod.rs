@@ -18,9 +18,11 @@ mod writer;
 use std::{fmt, io, sync::mpsc::Sender};
 
 pub use drive::run;
+pub(crate) use signals::not_ignored;
 
 use crate::{
     app::Input,
+    printable,
     scene::{Opened, Settings},
     view::{Colors, Marker},
 };
@@ -68,8 +70,8 @@ impl fmt::Display for Error {
             Error::NoTerminal => {
                 write!(f, "standard output is not a terminal; use carom run, carom render or --text instead")
             }
-            Error::Io(error) => write!(f, "the terminal can't be used: {error}"),
-            Error::Panic(said) => write!(f, "carom has made a mistake and can't go on: {said}"),
+            Error::Io(error) => write!(f, "the terminal cannot be used: {}", printable::cause(error)),
+            Error::Panic(said) => write!(f, "carom has made a mistake and cannot go on: {said}"),
         }
     }
 }

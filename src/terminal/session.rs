@@ -1,4 +1,10 @@
 //! The terminal while it is ours: raw mode, alternate screen, hidden cursor; and given back on every way out.
+//!
+//! Every way on which some code of ours still runs: quitting, errors, panics in any thread, signals that can be caught.
+//! That ends where the process is ended without being asked: by SIGKILL, by the system when memory is out, and by Rust
+//! itself when an allocation is refused, a stack overflows or a panic meets another (it aborts; to run code there takes
+//! `unsafe`). What is known to need more memory than there is is refused before (`scene::size`). After such an end,
+//! `reset` puts a terminal right.
 
 use std::{
     fs::{File, OpenOptions},

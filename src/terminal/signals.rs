@@ -18,7 +18,9 @@ const GRACE: Duration = Duration::from_millis(500);
 /// # Errors
 /// If the system refuses a handler or the thread.
 pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])?;
+    let mut wanted = not_ignored(&[SIGTERM, SIGINT, SIGHUP, SIGQUIT]);
+    wanted.extend([SIGTSTP, SIGCONT, SIGWINCH]);
+    let mut signals = Signals::new(wanted)?;
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
             match signal {
@@ -36,6 +38,15 @@ pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
         }
     })?;
     Ok(())
+}
+
+/// Those of the signals that our parent has not told us to ignore (nohup, background jobs): what is ignored stays so,
+/// with a screen and without. Where /proc does not tell, all of them.
+pub(crate) fn not_ignored(signals: &[i32]) -> Vec<i32> {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok()).unwrap_or(0);
+    signals.iter().copied().filter(|signal| mask >> (signal - 1) & 1 == 0).collect()
 }
 
 /// Whether a shell is there that could continue us after a stop: it leads our session and our group is a job of its.

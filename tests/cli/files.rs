@@ -1,15 +1,20 @@
 //! Files that are replaced as a whole or not at all, and streams whose readers go, sleep or are full.
 
 use std::fs;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+use std::process::Stdio;
 
 use rustix::process::{Pid, Signal, kill_process};
 
-use crate::program::{self, Ran, carom, folder, in_folder, names_in, spawn};
+use crate::program::{self, Ran, carom, folder, in_folder, names_in, piped, spawn};
+use crate::watch::{Watch, finish, finish_reading};
 
 /// Long enough for a pipe to be full many times over, whatever the machine.
-const LONG: [&str; 6] = ["run", "paper-0", "--until", "1e6", "--every", "1e-4"];
+const LONG: [&str; 7] = ["run", "paper-0", "--until", "1e6", "--every", "1e-4", "--yes"];
+
+/// What is said first of a run of so many rows.
+const MANY: &[u8] = b"carom: --every 0.0001 writes 1e10 rows of states\n";
 
 #[test]
 fn a_file_is_replaced_with_its_permissions_and_nothing_is_left_beside_it() {
@@ -82,13 +87,31 @@ fn a_signal_ends_a_run_with_128_and_its_number_and_leaves_the_file_as_it_was() {
         let mut out = BufReader::new(child.stdout.take().expect("its stdout"));
         out.read_line(&mut String::new()).expect("the first line: it has begun");
         kill_process(Pid::from_child(&child), signal).expect("a living process");
-        out.read_to_end(&mut Vec::new()).expect("the rest, so that it is not held up by a full pipe");
-        let ended = child.wait_with_output().expect("its end");
-        assert_eq!(ended.status.code(), Some(code), "{ended:?}");
-        assert!(ended.stderr.is_empty(), "{ended:?}");
+        let ended = finish_reading(child, Some(out)); // the rest, so that it is not held up by a full pipe
+        assert_eq!(ended.status.code(), Some(code), "{:?}", ended.status);
+        assert_eq!(ended.stderr, MANY);
         assert_eq!(fs::read_to_string(&path).expect("the file"), "precious");
         assert_eq!(names_in(&folder), ["events.csv"]);
     }
+}
+
+#[test]
+fn a_hang_up_that_is_ignored_at_the_start_stays_ignored() {
+    // What nohup does, and it is passed on; the program must not take it back.
+    let nohup = r#"trap "" HUP; exec "$@""#;
+    let run = [&["sh", "-c", nohup, "sh", env!("CARGO_BIN_EXE_carom")], &LONG[..], &["--states", "-"]].concat();
+    let mut command = std::process::Command::new("env");
+    command.args(["--default-signal=TERM"]).args(run).env("TERM", "xterm");
+    let mut child = piped(command);
+    let mut out = BufReader::new(child.stdout.take().expect("its stdout"));
+    out.read_line(&mut String::new()).expect("the first line: it has begun");
+    kill_process(Pid::from_child(&child), Signal::HUP).expect("a living process");
+    // More than its pipe and our buffer hold: it goes on.
+    for _ in 0..20_000 {
+        assert!(out.read_line(&mut String::new()).expect("a line") > 0, "it has ended");
+    }
+    kill_process(Pid::from_child(&child), Signal::TERM).expect("a living process");
+    assert_eq!(finish_reading(child, Some(out)).status.code(), Some(143));
 }
 
 #[test]
@@ -97,6 +120,7 @@ fn a_signal_ends_a_run_whose_reader_has_fallen_asleep() {
     let mut out = BufReader::new(child.stdout.take().expect("its stdout"));
     out.read_line(&mut String::new()).expect("the first line: it has begun");
     kill_process(Pid::from_child(&child), Signal::TERM).expect("a living process");
+    let _watch = Watch::over(Pid::from_child(&child));
     assert_eq!(child.wait().expect("its end").code(), Some(143));
 }
 
@@ -106,8 +130,8 @@ fn a_closed_pipe_ends_a_run_in_silence() {
     let mut out = BufReader::new(child.stdout.take().expect("its stdout"));
     out.read_line(&mut String::new()).expect("the first line");
     drop(out);
-    let ended = child.wait_with_output().expect("its end");
-    assert_eq!((ended.status.code(), ended.stderr.as_slice()), (Some(141), &b""[..]), "{ended:?}");
+    let ended = finish(child);
+    assert_eq!((ended.status.code(), ended.stderr.as_slice()), (Some(141), MANY), "{ended:?}");
 }
 
 #[test]
@@ -127,7 +151,8 @@ fn no_command_minds_a_reader_that_has_gone() {
         let mut command = program::command(arguments);
         let (reader, writer) = std::io::pipe().expect("a pipe");
         drop(reader);
-        let ended = command.stdout(writer).output().expect("its end");
+        let ended = finish(command.stdout(writer).stderr(Stdio::piped()).spawn().expect("the built binary"));
+        drop(command);
         assert_eq!((ended.status.code(), ended.stderr.as_slice()), (Some(141), &b""[..]), "{arguments:?}: {ended:?}");
     }
 }
@@ -137,8 +162,33 @@ fn no_command_minds_a_reader_that_has_gone() {
 fn a_full_disk_is_a_failure_that_is_said() {
     for arguments in [&["list"][..], &["man"], &["run", "paper-0", "--until", "1"], &["render", "paper-0"]] {
         let full = fs::File::options().write(true).open("/dev/full").expect("the full device");
-        let ended = program::command(arguments).stdout(full).output().expect("its end");
+        let ended = program::command(arguments).stdout(full).stderr(Stdio::piped()).spawn().expect("the built binary");
+        let ended = finish(ended);
         let ran = Ran::from(ended).fails_with(1);
         assert_eq!(ran.err, "carom: cannot write standard output: No space left on device\n");
     }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_exit_code_tells_even_if_nobody_can_read_why() {
+    let cases: [(&[&str], i32); 5] = [
+        (&["--nonsense"], 2),
+        (&["run"], 2),
+        (&["run", "paper-0", "--states", "-", "--events", "-"], 2),
+        (&["run", "nowhere"], 1),
+        (&["measure", "--merge", "nowhere.csv"], 1),
+    ];
+    for (arguments, code) in cases {
+        let full = fs::File::options().write(true).open("/dev/full").expect("the full device");
+        let child = program::command(arguments).stdout(Stdio::piped()).stderr(full).spawn().expect("the built binary");
+        assert_eq!(finish(child).status.code(), Some(code), "stderr is full: {arguments:?}");
+        let words = [&["-c", r#"exec "$0" "$@" 2>&-"#, env!("CARGO_BIN_EXE_carom")], arguments].concat();
+        let child = std::process::Command::new("sh").args(words).stdout(Stdio::piped()).spawn().expect("a shell");
+        assert_eq!(finish(child).status.code(), Some(code), "stderr is closed: {arguments:?}");
+    }
+    let full = fs::File::options().write(true).open("/dev/full").expect("the full device");
+    let help = program::command(&["--help"]).stdout(full).stderr(Stdio::piped()).spawn().expect("the built binary");
+    let said = Ran::from(finish(help)).fails_with(1).err;
+    assert_eq!(said, "carom: cannot write standard output: No space left on device\n");
 }

@@ -5,6 +5,8 @@ use std::process::{Child, Command, Output, Stdio};
 
 use tempfile::TempDir;
 
+use crate::watch;
+
 /// What a run of the binary left.
 #[derive(Debug)]
 pub(crate) struct Ran {
@@ -42,7 +44,18 @@ impl Ran {
 
 /// The binary in a plain environment.
 pub(crate) fn command(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
+    plain(Command::new(env!("CARGO_BIN_EXE_carom")), arguments)
+}
+
+/// The binary with the signals that end a program as the system sets them, whatever the tests inherited: under nohup
+/// SIGHUP is ignored, and what is ignored stays so. `env` is GNU's.
+pub(crate) fn with_default_signals(arguments: &[&str]) -> Command {
+    let mut command = Command::new("env");
+    command.args(["--default-signal=HUP,INT,QUIT,TERM", env!("CARGO_BIN_EXE_carom")]);
+    plain(command, arguments)
+}
+
+fn plain(mut command: Command, arguments: &[&str]) -> Command {
     command.args(arguments).env("TERM", "xterm-256color").stdin(Stdio::null());
     for name in ["NO_COLOR", "COLORTERM", "CLICOLOR_FORCE", "COLUMNS", "LINES"] {
         command.env_remove(name);
@@ -52,12 +65,17 @@ pub(crate) fn command(arguments: &[&str]) -> Command {
 
 /// Runs it to its end.
 pub(crate) fn carom(arguments: &[&str]) -> Ran {
-    Ran::from(command(arguments).output().expect("the built binary"))
+    Ran::from(watch::output(&mut command(arguments)))
 }
 
 /// Starts it with pipes to read from.
 pub(crate) fn spawn(arguments: &[&str]) -> Child {
-    command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the built binary")
+    piped(with_default_signals(arguments))
+}
+
+/// Starts a command with pipes to read from.
+pub(crate) fn piped(mut command: Command) -> Child {
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the built binary")
 }
 
 /// The closing line of `run`.

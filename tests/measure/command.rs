@@ -129,6 +129,25 @@ fn an_interrupt_keeps_what_is_done_and_says_so() {
 }
 
 #[test]
+fn an_interrupt_before_anything_is_done_keeps_the_old_results() {
+    let folder = folder();
+    let (csv, svg) = (in_folder(&folder, "rows.csv"), in_folder(&folder, "trade.svg"));
+    fs::write(&csv, "precious").expect("a file");
+    fs::write(&svg, "dear").expect("a file");
+    // It takes 2e9 frames: nobody waits for it.
+    let setting =
+        ["measure", "paper-0", "--methods=paper", "--dt=1e-8", "--tolerances=1e-3", "--csv", &csv, "--svg", &svg];
+    let mut pty = pty::carom(&setting).run();
+    pty.until_text("0 of 1 settings");
+    pty.signal(Signal::TERM);
+    assert_eq!(pty.exit(), 143);
+    assert!(pty.text().contains("interrupted: none of 1 settings is done; nothing is written"), "{}", pty.text());
+    assert_eq!(fs::read_to_string(&csv).expect("the old rows"), "precious");
+    assert_eq!(fs::read_to_string(&svg).expect("the old figure"), "dear");
+    assert_eq!(names_in(&folder), ["rows.csv", "trade.svg"]);
+}
+
+#[test]
 fn a_broken_part_is_refused_with_file_and_line() {
     let folder = folder();
     let path = in_folder(&folder, "part.csv");
@@ -138,6 +157,9 @@ fn a_broken_part_is_refused_with_file_and_line() {
         ("a,b\n1,2\n".into(), 1, "columns"),
         (format!("{COLUMNS}\n{row}\n{}\n", row.replace("1206", "many")), 3, "evaluations is \"many\""),
         (format!("{COLUMNS}\n{row}\npaper-0,paper\n"), 3, "2 cells"),
+        (format!("{COLUMNS}\n{}\n", row.replace("paper,0.1", "paper,inf")), 2, "dt is inf"),
+        (format!("{COLUMNS}\n{}\n", row.replace("paper,0.1", "paper,-0.1")), 2, "dt is -0.1"),
+        (format!("{COLUMNS}\n{row}\n{}\n", row.replace("20.0", "NaN")), 3, "until is NaN"),
         (format!("{COLUMNS}\n{}\n", row.replace("paper,", "magic,")), 2, "\"magic\""),
         (format!("{COLUMNS}\n{row}\n{row}\n"), 3, "already"),
         (format!("{COLUMNS}\n{row}\n{}\n", row.replace("0.1,0.001,20.0,,", "0.2,0.001,20.0,7.5,")), 3, "horizon"),

@@ -109,7 +109,7 @@ impl Screen {
 
 /// The bytes of a terminal, as they come, until it closes.
 fn read(mut reader: Box<dyn Read + Send>) -> Receiver<Vec<u8>> {
-    let (send, output) = mpsc::channel();
+    let (send, output) = mpsc::sync_channel(256); // a program that writes without end waits for the test
     thread::spawn(move || {
         let mut bytes = [0; 4096];
         while let Ok(length @ 1..) = reader.read(&mut bytes) {

@@ -65,7 +65,7 @@ pub(crate) const G: DVec3 = dvec3(0.0, -9.8, 0.0);
 
 /// Scene `k` of the source paper.
 pub(crate) fn paper_scene(k: usize) -> Scene {
-    carom::scene::open(&format!("paper-{k}")).expect("a built-in scene").scene
+    carom::scene::open(format!("paper-{k}")).expect("a built-in scene").scene
 }
 
 /// Goes on to a frame that ends at or after `t` (s), in slices of `work`; why it stalled, if it did.

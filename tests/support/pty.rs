@@ -14,6 +14,8 @@ use std::{
 use portable_pty::{CommandBuilder, MasterPty, PtySize, SlavePty, native_pty_system};
 use rustix::process::{Pid, Signal, kill_process};
 
+use crate::watch;
+
 /// Longest wait for anything that must happen: generous, because it only ends a test that has failed.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -42,6 +44,8 @@ pub(crate) struct Pty {
     exit: Receiver<u32>,
     pid: Pid,
     emulator: vt100::Parser,
+    /// Kills it if a test goes on for ever, reading what it goes on writing.
+    watch: watch::Watch,
     /// Everything the program has written.
     pub(crate) output: Vec<u8>,
 }
@@ -80,6 +84,7 @@ impl Start<'_> {
             exit,
             pid,
             emulator: vt100::Parser::new(at_least_one(rows), at_least_one(cols), 0),
+            watch: watch::Watch::over(pid),
             output: Vec::new(),
         }
     }
@@ -115,6 +120,7 @@ impl Pty {
         self.asked = answer == Err(RecvTimeoutError::Timeout);
         let bytes = answer.ok()?;
         self.output.extend(&bytes);
+        assert!(self.output.len() as u64 <= watch::MOST, "it writes without end; the screen:\n{}", self.text());
         self.emulator.process(&bytes);
         Some(bytes)
     }
@@ -205,7 +211,7 @@ impl Pty {
         while self.asked {
             drop(self.read(PATIENCE));
         }
-        let Pty { master, slave, writer, requests, answers, exit, .. } = self;
+        let Pty { master, slave, writer, requests, answers, exit, watch: _watch, .. } = self;
         drop((master, slave, writer, requests, answers));
         exit.recv_timeout(PATIENCE).expect("the program ends with its terminal")
     }

@@ -103,6 +103,6 @@ fn the_scene_is_complete_and_short() {
     for block in blocks("ron") {
         let scene = carom::scene::parse(&block, "README.md").unwrap_or_else(|error| panic!("{error}"));
         assert!(block.lines().count() <= 12 && !scene.spheres.is_empty(), "{block}");
-        assert_eq!(carom::scene::warnings(&scene, scene.solver), Vec::<String>::new());
+        assert_eq!(carom::scene::warnings(&scene, scene.solver, scene.duration), Vec::<String>::new());
     }
 }
