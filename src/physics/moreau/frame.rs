@@ -186,7 +186,9 @@ impl Moreau {
             if row.key.0 == Kind::Pair || row.face || !row.holds() {
                 continue;
             }
-            let others = self.rows[known..].iter().filter(|other| row.shares_crack_with(other));
+            let (rows, a) = (&self.rows[known..], row.key.1);
+            let at = |sphere: usize| rows.partition_point(|other| other.key < (Kind::Wall, sphere, 0));
+            let others = rows[at(a)..at(a + 1)].iter().filter(|other| row.shares_crack_with(other));
             let (sum, count) = others.fold((DVec3::ZERO, 0), |(sum, count), other| (sum + other.normal, count + 1));
             if count > 1 {
                 self.rows[k].normal = sum / sum.length();

@@ -36,6 +36,9 @@ const GRAZING_STEPS: usize = 64;
 /// Square of the difference of two normals up to which walls count as touched at one point.
 const ONE_POINT: f64 = 1e-10;
 
+/// The same up to which their mean touches both: it is off by an eighth of this, in radii, less than [`TOUCHING`].
+const ONE_CRACK: f64 = 1e-12;
+
 /// Gap over the size of the bodies from which they count as touching.
 pub(super) const TOUCHING: f64 = 1e-12;
 
@@ -297,11 +300,9 @@ impl Row {
         one_point && if self.face == other.face { self.key < other.key } else { self.face }
     }
 
-    /// Whether both hold one sphere at what is one point to rounding, on edges or corners. True of itself.
+    /// Whether another row of the same sphere holds it at what is the same point to rounding, on an edge or a corner.
     pub(super) fn shares_crack_with(&self, other: &Row) -> bool {
-        let ((kind, a, _), (other_kind, other_a, _)) = (self.key, other.key);
-        let near = || (self.normal - other.normal).length_squared() <= ONE_CRACK;
-        kind == other_kind && a == other_a && other.holds() && !other.face && near()
+        other.holds() && !other.face && (self.normal - other.normal).length_squared() <= ONE_CRACK
     }
 
     /// Whether a touch has the same normal.
