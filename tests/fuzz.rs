@@ -86,7 +86,7 @@ fn scene_file(file: &[u8]) -> bool {
     match scene::parse(text, "mutant.ron") {
         Ok(scene) => {
             assert_sound(&scene);
-            let _ = scene::warnings(&scene, scene.solver);
+            let _ = scene::warnings(&scene, scene.solver, scene.duration);
             runs(&scene);
             true
         }
