@@ -133,7 +133,7 @@ fn scenes_with_nobody_or_few_go_through_every_command_and_method() {
             carom(&["render", path, "--at", "1", "--method", method]).succeeds();
             carom(&["--text", path, "--method", method]).succeeds();
         }
-        if *walls == "" || spheres.is_empty() {
+        if walls.is_empty() || spheres.is_empty() {
             carom(&["run", path, "--accuracy", "1e-3"]).succeeds();
             carom(&["measure", path]).succeeds();
         }

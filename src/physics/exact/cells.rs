@@ -187,7 +187,7 @@ impl Cells {
 
     /// Whom a sphere in a cube may meet: who is around it, or came within reach when it went `way` into it, and who is in
     /// no cube; everybody, if it is in none itself. Whoever is in no cube has been looked at before a crossing.
-    #[inline]
+    #[inline(always)]
     pub(super) fn look(&self, spot: Spot, way: Option<Way>, near: &mut Near, seats: usize) {
         match way {
             _ if spot.is_loose() => near.everybody(seats),

@@ -81,6 +81,8 @@ pub(super) struct Exact<D> {
     frame: Frame,
     /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
     goal: f64,
+    /// Where the frame under way ends if nothing happens before, s.
+    end: f64,
     flight: Flight,
     /// By seat.
     queue: Queue,
@@ -139,6 +141,7 @@ impl<D: Detector> Engine for Exact<D> {
             now: state.t,
             frame: Frame { time: state.t, step: 0.0, open: false },
             goal: f64::NEG_INFINITY,
+            end: f64::MAX,
             flight: Flight::new(model, &state),
             queue: Queue::new(count),
             next: None,
@@ -175,6 +178,7 @@ impl<D: Detector> Engine for Exact<D> {
             Until::Time(t) if t.is_finite() && t - self.frame.time > MOST_IDLE * self.settings.dt => t,
             _ => f64::NEG_INFINITY,
         };
+        self.end = self.frame_end();
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -248,10 +252,17 @@ impl<D: Detector> Engine for Exact<D> {
 impl<D: Detector> Exact<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
+        self.end = self.frame_end();
         self.flight.forget();
         self.rests.forget();
         log.contacts.clear();
         log.probes.clear();
+    }
+
+    /// A frame is dt long, and so long at least that the clock moves on.
+    fn frame_end(&self) -> f64 {
+        let start = self.frame.time;
+        (start + self.settings.dt).max(start.next_up()).max(self.goal).min(f64::MAX)
     }
 
     fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
@@ -282,10 +293,9 @@ impl<D: Detector> Exact<D> {
             self.next = Some((time, seat));
             return Ok(self.close_frame(model, log, self.now));
         }
-        let end = (self.frame.time + self.settings.dt).max(self.frame.time.next_up()).max(self.goal).min(f64::MAX);
-        if time > end {
+        if time > self.end {
             self.next = Some((time, seat));
-            return Ok(self.close_frame(model, log, end));
+            return Ok(self.close_frame(model, log, self.end));
         }
         self.advance_clock(time, model.len())?;
         self.scout();

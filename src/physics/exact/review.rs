@@ -33,34 +33,39 @@ pub(super) struct Wear {
     looks: u64,
     /// When the last review was, s.
     since: f64,
-    /// A sphere.
-    spheres: u64,
+    /// So many are too many: crossings, pairs.
+    most: [u64; 2],
 }
 
 impl Wear {
     /// None, among so many spheres at time `t`, s.
     pub(super) fn new(spheres: usize, t: f64) -> Wear {
-        Wear { crossings: 0, pairs: 0, looks: 0, since: t, spheres: spheres as u64 }
+        Wear { crossings: 0, pairs: 0, looks: 0, since: t, most: [CROSSINGS, PAIRS].map(|each| each * spheres as u64) }
     }
 
     /// A sphere crossed into a cube and looked at so many.
-    #[inline]
+    #[inline(always)]
     pub(super) fn cross(&mut self, pairs: u64) {
         self.crossings += 1;
         self.pairs += pairs;
     }
 
     /// A sphere looked around, at so many.
-    #[inline]
+    #[inline(always)]
     pub(super) fn look(&mut self, pairs: u64) {
         self.looks += 1;
         self.pairs += pairs;
     }
 
     /// Whether it is time to ask.
-    #[inline]
+    #[inline(always)]
     pub(super) fn is_worn(&self) -> bool {
-        self.crossings > CROSSINGS * self.spheres || self.pairs > PAIRS * self.spheres
+        self.has_many_crossings() | (self.pairs > self.most[1])
+    }
+
+    #[inline(always)]
+    fn has_many_crossings(&self) -> bool {
+        self.crossings > self.most[0]
     }
 }
 
@@ -81,7 +86,7 @@ impl<D: Detector> Exact<D> {
                 return;
             }
         }
-        if self.wear.crossings > CROSSINGS * self.wear.spheres {
+        if self.wear.has_many_crossings() {
             self.sort_out_loose(model);
             self.reseat();
             self.wear = Wear::new(model.len(), self.now);
@@ -162,7 +167,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// A sphere in no cube is in one again as soon as something has happened to it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn catch(&mut self, seat: usize) {
         let record = &self.flight.records[seat];
         if record.spot.is_loose() {

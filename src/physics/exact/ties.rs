@@ -64,7 +64,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// An event has been entered for a seat at `time`, s.
-    #[inline]
+    #[inline(always)]
     pub(super) fn tie(&mut self, seat: usize, time: f64) {
         if time == self.ties.time {
             self.enter_tie(seat, time);
