@@ -205,12 +205,13 @@ fn fault(scene: &Scene, dt: f64) -> Option<String> {
                 }
                 // What the method says of itself: the tolerance times r.
                 if depth > 1e-3 * body.radius {
-                    return Some(format!("t {}: sphere {i} is {depth:e} m in wall {w}", after.t));
+                    return Some(format!("t {}: sphere {i} is {:e} r in wall {w}", after.t, depth / body.radius));
                 }
             }
         }
         // A pull makes energy sway with every frame; without one it never rises.
-        if scene.gravity == DVec3::ZERO && run.energy() > energy * (1.0 + 1e-11) {
+        let rounding = 1e-11 * energy + 1e-30 * run.initial_energy();
+        if scene.gravity == DVec3::ZERO && run.energy() > energy + rounding {
             return Some(format!("t {}: {} J after {energy} J", after.t, run.energy()));
         }
         (before, energy) = (after, run.energy());
