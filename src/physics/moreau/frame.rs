@@ -128,15 +128,15 @@ impl Moreau {
     /// Makes a row of two bodies if they meet.
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
         let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
-        let near = if round == 0 { terms.near(model, key) } else { 0.0 };
+        let near = (round == 0).then(|| terms.near(model, key));
         let left = terms.still(model, key);
         let found = match key.0 {
-            Kind::Pair => path.meeting(near),
-            Kind::Wall => path.wall_meeting(near, Allowance { left, more: self.sunk[key.1] }),
+            Kind::Pair => path.meeting(near.unwrap_or(0.0)),
+            Kind::Wall => path.wall_meeting(near, Allowance { left, more: self.sunk[key.1].min(left) }),
         };
         let Some(meeting) = found else { return };
         let closing = -meeting.normal.dot(path.velocity);
-        let meets = closing * terms.h >= meeting.way;
+        let meets = meeting.time < f64::INFINITY && closing * terms.h >= meeting.way;
         // What is reached only because something was struck in this frame collides at the speed it has by then; not what
         // it is pulled into by what accelerates it, before all that holds it is known.
         let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
@@ -178,12 +178,12 @@ impl Moreau {
         }
     }
 
-    /// Edges that a sphere touches at one point carry it together: over the middle of a crack it feels no side. The row
+    /// Edges that a sphere touches at one point carry or strike it together: over the middle of a crack it feels no side. The row
     /// that is kept of them takes the mean of their normals, which differs from each by less than shows in a gap.
     fn bridge_cracks(&mut self, known: usize, keep: &[bool]) {
         for k in (known..self.rows.len()).filter(|k| keep[k - known]) {
             let row = self.rows[k];
-            if row.key.0 == Kind::Pair || row.face || !row.holds() {
+            if row.key.0 == Kind::Pair || row.face {
                 continue;
             }
             let (rows, a) = (&self.rows[known..], row.key.1);
@@ -305,8 +305,8 @@ impl Moreau {
         for &key in self.search.found.iter().take_while(|key| key.0 == Kind::Wall) {
             let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
             let left = terms.still(model, key);
-            let entered = path.wall_meeting(f64::NEG_INFINITY, Allowance { left, more: left });
-            if entered.is_some_and(|meeting| meeting.time <= terms.h) {
+            let entered = path.wall_meeting(None, Allowance { left, more: left });
+            if entered.is_some() {
                 self.solution[key.1] = DVec3::ZERO;
             }
         }

@@ -21,6 +21,12 @@ use super::super::{Class, Kind, Model, Settings, contact_time};
 /// Larger tolerances count as this one: a solver that may miss everything by half solves nothing.
 const LARGEST_TOLERANCE: f64 = 0.1;
 
+/// Share of the tolerance by which a row may be missed at most, as a way over the size of the bodies.
+const MOST_SLACK: f64 = 0.5;
+
+/// The same of a gap or overlap that is not corrected.
+const MOST_STILL: f64 = 0.25;
+
 /// Relative size of what rounding leaves of a row: what the tolerance cannot go below.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
@@ -163,8 +169,8 @@ impl<'a> Path<'a> {
     }
 
     /// The same of a sphere and a wall; none if a plane has all of the wall behind it and all of the path before it. Over
-    /// faces, what is closer than `near` (m) at the start counts as near.
-    pub(super) fn wall_meeting(&self, near: f64, allowance: Allowance) -> Option<Meeting> {
+    /// faces, what is closer than `near` (m) at the start, if that is given, counts as near.
+    pub(super) fn wall_meeting(&self, near: Option<f64>, allowance: Allowance) -> Option<Meeting> {
         let (face, r) = (&self.model.faces[self.key.2], self.size());
         let (from, to) = (self.from, self.from + self.velocity * self.h);
         let rounding = touching(r, from.abs().max_element().max(to.abs().max_element()));
@@ -175,7 +181,7 @@ impl<'a> Path<'a> {
             let height = plane.height(from);
             height >= -left && plane.height(to) >= height.min(0.0) - rounding - allowance.more
         };
-        let over = (start.part == Part::Face && start.gap <= near).then_some(Meeting {
+        let over = (start.part == Part::Face && near.is_some_and(|near| start.gap <= near)).then_some(Meeting {
             normal: start.normal,
             way: start.gap,
             time: f64::INFINITY,
@@ -267,7 +273,7 @@ impl Terms {
     /// Gap or overlap, m, that the solver may leave and that is not corrected.
     pub(super) fn still(&self, model: &Model, key: Key) -> f64 {
         let size = model.radii[key.1] + if key.0 == Kind::Pair { model.radii[key.2] } else { 0.0 };
-        self.tolerance * (model.law.rest_speed + pull(model, key) * self.h).min(size / self.h) * self.h
+        self.tolerance * (model.law.rest_speed + pull(model, key) * self.h).min(MOST_STILL * size / self.h) * self.h
     }
 
     /// What accelerates the bodies of `key` changes in their speed in a frame, m/s.
@@ -300,9 +306,9 @@ impl Row {
         one_point && if self.face == other.face { self.key < other.key } else { self.face }
     }
 
-    /// Whether another row of the same sphere holds it at what is the same point to rounding, on an edge or a corner.
+    /// Whether another row of the same sphere touches it at what is the same point to rounding, on an edge or a corner.
     pub(super) fn shares_crack_with(&self, other: &Row) -> bool {
-        other.holds() && !other.face && (self.normal - other.normal).length_squared() <= ONE_CRACK
+        !other.face && (self.normal - other.normal).length_squared() <= ONE_CRACK
     }
 
     /// Whether a touch has the same normal.
@@ -339,7 +345,7 @@ impl Row {
             reached,
             approach: speeds.approach,
             class: if speeds.struck { Class::Collide } else { Class::Rest },
-            slack: share.min(terms.tolerance * path.size() / terms.h).max(rounding),
+            slack: share.min(MOST_SLACK * terms.tolerance * path.size() / terms.h).max(rounding),
             impulse: carried,
             time: meeting.time,
             face: meeting.face,
