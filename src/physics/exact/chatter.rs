@@ -27,9 +27,12 @@ const DECAY: f64 = 50.0;
 /// Elastic bounces in a row that coordinates cannot tell from none.
 const LOST: u32 = 1000;
 
-/// A row is fed if its impulses are no more than this many times what all bodies weigh while it lasts: whatever is piled
+/// A row is fed if its last impulses are no more than this many times what all bodies weigh meanwhile: whatever is piled
 /// upon them. Those of a chain that ends by itself, in which a fast body is turned round across a small gap, are far more.
 const FED: f64 = 8.0;
+
+/// What each impact leaves of the memory of those before: the last ones are some 64.
+const MEMORY: f64 = 1.0 - 1.0 / 64.0;
 
 /// Small bounces of some contacts, each in a row so far.
 pub(super) type Chatter = BTreeMap<Key, Row>;
@@ -40,18 +43,18 @@ pub(super) struct Row {
     count: u32,
     /// How many of them, the last ones, were lower than [`SMALL_HOP`].
     tiny: u32,
-    /// When the first and the last of them were, s.
-    first: f64,
+    /// When the last of them was, s.
     last: f64,
     /// The approach speed (m/s) that it should have had at most, had each lost at least the root of what restitution takes.
     due: f64,
-    /// The sum of 1 + e times the approach speeds, m/s.
+    /// The sum of 1 + e times the approach speeds of the last ones (m/s), and how long they took, s.
     given: f64,
+    took: f64,
 }
 
 impl Row {
     fn new(now: f64, approach_speed: f64) -> Row {
-        Row { count: 0, tiny: 0, first: now, last: now, due: approach_speed, given: 0.0 }
+        Row { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
     }
 
     fn is_endless(&self, approach_speed: f64, keeps: f64) -> bool {
@@ -65,7 +68,7 @@ impl Row {
 
     /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.
     fn is_fed(&self, pull: f64) -> bool {
-        self.given <= FED * pull * (self.last - self.first)
+        self.given <= FED * pull * self.took
     }
 }
 
@@ -89,7 +92,8 @@ impl<D: Detector> Exact<D> {
             return false;
         }
         let row = self.chatter.entry(meeting.key).or_insert(Row::new(now, approach_speed));
-        row.given += (1.0 + keeps) * approach_speed;
+        row.given = MEMORY * row.given + (1.0 + keeps) * approach_speed;
+        row.took = MEMORY * row.took + (now - row.last);
         row.count = row.count.saturating_add(1);
         row.tiny = if way <= (SMALL_HOP * meeting.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
         row.last = now;

@@ -34,8 +34,9 @@ const STRETCH: u64 = 20 * MOST_AT_ONCE;
 /// Share of the time scale of its fastest sphere below which a run's clock counts as at its zero: 2⁻⁸.
 const BEGINNING: f64 = 1.0 / 256.0;
 
-/// Below this share of the fastest approach of a chain, or of the speeds of its bodies, an approach is rounding: 8 ulp.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// Below this share of the fastest approach of a chain, or of the speeds of its bodies, an approach is what the rounding of
+/// a thousand impacts may have made: 4096 ulp.
+const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
 /// Approaches below this share of the speeds of their bodies are rounding: 64 ulp.
 const LOST: f64 = 64.0 * f64::EPSILON;
