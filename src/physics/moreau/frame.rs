@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::super::contact::Key;
 use super::super::log::Log;
 use super::super::motion::{Flight, with_flight};
-use super::super::{Class, Contact, Kind, Model, Stall, motion, overlap};
-use super::Moreau;
+use super::super::{Class, Contact, Kind, Model, Stall, contact_time, motion, overlap};
 use super::meeting::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
+use super::{Carried, Moreau};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -129,10 +129,13 @@ impl Moreau {
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
         let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
         let near = (round == 0).then(|| terms.near(model, key));
-        let left = terms.still(model, key);
         let found = match key.0 {
             Kind::Pair => path.meeting(near.unwrap_or(0.0)),
-            Kind::Wall => path.wall_meeting(near, Allowance { left, more: self.sunk[key.1].min(left) }),
+            Kind::Wall => {
+                let still = terms.still(model, key);
+                let (left, more) = (self.depth(model, key.1).min(still), self.sunk[key.1].min(still));
+                path.wall_meeting(near, Allowance { left, more })
+            }
         };
         let Some(meeting) = found else { return };
         let closing = -meeting.normal.dot(path.velocity);
@@ -151,9 +154,22 @@ impl Moreau {
     /// on from tile to tile strikes the next one no more than the first one over again.
     fn was_held_level_with(&self, path: &Path, meeting: &Meeting) -> bool {
         let (kind, a, _) = path.key;
-        let first = self.carried.partition_point(|held| held.0 < (Kind::Wall, a, 0));
-        let mut of_sphere = self.carried[first..].iter().take_while(|held| held.0.0 == Kind::Wall && held.0.1 == a);
-        kind == Kind::Wall && of_sphere.any(|held| path.meets_in_plane_of(&path.model.faces[held.0.2], meeting))
+        let mut walls = self.walls_that_held(a);
+        kind == Kind::Wall && walls.any(|wall| path.meets_in_plane_of(&path.model.faces[wall], meeting))
+    }
+
+    /// The walls that held a sphere in the last frame.
+    fn walls_that_held(&self, sphere: usize) -> impl Iterator<Item = usize> {
+        let first = self.carried.partition_point(|held| held.0 < (Kind::Wall, sphere, 0));
+        let of_sphere = move |held: &&Carried| held.0.0 == Kind::Wall && held.0.1 == sphere;
+        self.carried[first..].iter().take_while(of_sphere).map(|held| held.0.2)
+    }
+
+    /// How deep a sphere is in the walls that held it in the last frame, m: what the solver has left.
+    fn depth(&self, model: &Model, sphere: usize) -> f64 {
+        let (x, r) = (self.end.x[sphere], model.radii[sphere]);
+        let gap = |wall: usize| contact_time::touch(&model.faces[wall], x, r).gap;
+        self.walls_that_held(sphere).map(|wall| -gap(wall)).fold(0.0, f64::max)
     }
 
     /// Of the walls that a sphere has been found to meet in this round, keeps those that hold it already and the first
