@@ -204,8 +204,9 @@ impl Moreau {
         }
     }
 
-    /// Edges that a sphere touches at one point carry or strike it together: over the middle of a crack it feels no side. The row
-    /// that is kept of them takes the mean of their normals, which differs from each by less than shows in a gap.
+    /// Edges that a sphere touches at one point carry it, or are struck, together: over the middle of a crack it feels no
+    /// side. The row that is kept of them takes the mean of their normals, which differs from each by less than shows in
+    /// a gap.
     fn bridge_cracks(&mut self, known: usize, keep: &[bool]) {
         for k in (known..self.rows.len()).filter(|k| keep[k - known]) {
             let row = self.rows[k];
