@@ -93,7 +93,32 @@ fn level_walls_that_meet_give_the_trajectory_of_one_wall() {
     }
 }
 
-/// How far over the wall (m) the centre may be on the way, and whether the way leads through it.
+#[test]
+fn a_sphere_as_wide_as_its_tube_slides_along_it() {
+    let tall = DVec3::Y * 40.0;
+    let walls = |half: f64| {
+        let (x, z) = (DVec3::X * half, DVec3::Z * half);
+        vec![wall(-x, tall, z * 2.0), wall(x, tall, z * 2.0), wall(-z, tall, x * 2.0), wall(z, tall, x * 2.0)]
+    };
+    for wider in [0.0, 1e-15, 1e-12, 1e-9, 1e-5] {
+        for restitution in [0.0, 0.5, 1.0] {
+            for rest_speed in [0.0, 0.1] {
+                let law = ContactLaw { restitution, wall_restitution: restitution, tangential: 1.0, rest_speed };
+                let (half, v) = (0.5 * (1.0 + wider), dvec3(0.447, 1.7, -1.45));
+                let mut run = start(&scene(DVec3::ZERO, law, walls(half), vec![sphere(DVec3::ZERO, v, 0.5)]), 0.01);
+                run_to(&mut run, 10.0, u64::MAX);
+                let (state, what) = (run.state(), format!("{wider:e} wider, e {restitution}, rest {rest_speed}"));
+                let (x, free) = (state.x[0], half - 0.5);
+                // Nothing rubs: a thousand frames of 1.7 m/s, and the room that the tube leaves, to rounding.
+                assert!((x.y - 1.7 * state.t).abs() < 1e-12, "{what}: {x}");
+                assert!(x.x.abs().max(x.z.abs()) <= free + 1e-15, "{what}: {x}");
+                assert_eq!(run.tallies().unconverged, 0, "{what}");
+            }
+        }
+    }
+}
+
+/// Whether the way of a centre from one point to another (m) leads through a wall.
 fn passes(shape: &Parallelogram, from: DVec3, to: DVec3) -> bool {
     let (before, after) = (shape.plane_distance(from), shape.plane_distance(to));
     if before * after >= 0.0 {
@@ -209,8 +234,9 @@ fn fault(scene: &Scene, dt: f64) -> Option<String> {
                 }
             }
         }
-        // A pull makes energy sway with every frame; without one it never rises.
-        let rounding = 1e-11 * energy + 1e-30 * run.initial_energy();
+        // A pull makes energy sway with every frame; without one it never rises, but by rounding and by what pushes apart
+        // what the solver left overlapping: once in 23 000 scenes, by 5e-11 of it.
+        let rounding = 1e-10 * energy + 1e-30 * run.initial_energy();
         if scene.gravity == DVec3::ZERO && run.energy() > energy + rounding {
             return Some(format!("t {}: {} J after {energy} J", after.t, run.energy()));
         }

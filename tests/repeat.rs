@@ -172,7 +172,7 @@ const GOLDEN_CROWDS: [(&str, f64, u64); 4] = [
     ("inelastic-666", 1.0, 0x89a59f55f5d88d3a),
     ("elastic-666", 1.0, 0xb9cb63aa2bc3a24c),
     ("stack", 5.0, 0xb9b6e822f11558ae),
-    ("paper-2", 10.0, 0x90cf247097b99012),
+    ("paper-2", 10.0, 0x929658daa952d000),
 ];
 
 #[test]

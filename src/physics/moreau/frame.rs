@@ -8,8 +8,8 @@ use super::super::contact::Key;
 use super::super::log::Log;
 use super::super::motion::{Flight, with_flight};
 use super::super::{Class, Contact, Kind, Model, Stall, contact_time, motion, overlap};
-use super::Moreau;
-use super::meeting::{Allowance, Path, Row, Speeds, TOUCHING, Terms};
+use super::meeting::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
+use super::{Carried, Moreau};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -129,10 +129,13 @@ impl Moreau {
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
         let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
         let near = (round == 0).then(|| terms.near(model, key));
-        let left = terms.still(model, key);
         let found = match key.0 {
             Kind::Pair => path.meeting(near.unwrap_or(0.0)),
-            Kind::Wall => path.wall_meeting(near, Allowance { left, more: self.sunk[key.1].min(left) }),
+            Kind::Wall => {
+                let still = terms.still(model, key);
+                let (left, more) = (self.depth(model, key.1).min(still), self.sunk[key.1].min(still));
+                path.wall_meeting(near, Allowance { left, more })
+            }
         };
         let Some(meeting) = found else { return };
         let closing = -meeting.normal.dot(path.velocity);
@@ -142,8 +145,31 @@ impl Moreau {
         let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
         let pulled = terms.pulled(model, key) + model.law.rest_speed;
         let approach = if round == 0 || closing <= pulled { before } else { before.max(closing) };
-        let struck = meets && carried == 0.0 && approach > model.law.rest_speed;
+        let held = carried > 0.0 || self.was_held_level_with(&path, &meeting);
+        let struck = meets && !held && approach > model.law.rest_speed;
         self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
+    }
+
+    /// Whether what held a sphere in the last frame is a wall in the plane in which it meets this one: a sphere that goes
+    /// on from tile to tile strikes the next one no more than the first one over again.
+    fn was_held_level_with(&self, path: &Path, meeting: &Meeting) -> bool {
+        let (kind, a, _) = path.key;
+        let mut walls = self.walls_that_held(a);
+        kind == Kind::Wall && walls.any(|wall| path.meets_in_plane_of(&path.model.faces[wall], meeting))
+    }
+
+    /// The walls that held a sphere in the last frame.
+    fn walls_that_held(&self, sphere: usize) -> impl Iterator<Item = usize> {
+        let first = self.carried.partition_point(|held| held.0 < (Kind::Wall, sphere, 0));
+        let of_sphere = move |held: &&Carried| held.0.0 == Kind::Wall && held.0.1 == sphere;
+        self.carried[first..].iter().take_while(of_sphere).map(|held| held.0.2)
+    }
+
+    /// How deep a sphere is in the walls that held it in the last frame, m: what the solver has left.
+    fn depth(&self, model: &Model, sphere: usize) -> f64 {
+        let (x, r) = (self.end.x[sphere], model.radii[sphere]);
+        let gap = |wall: usize| contact_time::touch(&model.faces[wall], x, r).gap;
+        self.walls_that_held(sphere).map(|wall| -gap(wall)).fold(0.0, f64::max)
     }
 
     /// Of the walls that a sphere has been found to meet in this round, keeps those that hold it already and the first
@@ -178,8 +204,9 @@ impl Moreau {
         }
     }
 
-    /// Edges that a sphere touches at one point carry or strike it together: over the middle of a crack it feels no side. The row
-    /// that is kept of them takes the mean of their normals, which differs from each by less than shows in a gap.
+    /// Edges that a sphere touches at one point carry it, or are struck, together: over the middle of a crack it feels no
+    /// side. The row that is kept of them takes the mean of their normals, which differs from each by less than shows in
+    /// a gap.
     fn bridge_cracks(&mut self, known: usize, keep: &[bool]) {
         for k in (known..self.rows.len()).filter(|k| keep[k - known]) {
             let row = self.rows[k];
@@ -259,44 +286,13 @@ impl Moreau {
         self.end.x.clear();
         self.end.x.extend(self.start.x.iter().zip(&self.solution).map(|(x, u)| *x + *u * h));
         self.step = h;
-        self.carry(model);
+        self.carried.clear();
+        self.carried.extend(self.rows.iter().filter(|row| row.impulse > 0.0).map(|row| (row.key, row.impulse)));
         log.tallies.frames += 1;
         log.tallies.relaxations += self.solver.solved;
         log.tallies.unconverged += u64::from(!converged);
         self.tell(model, log);
         Ok(())
-    }
-
-    /// What held in this frame, for the next one.
-    fn carry(&mut self, model: &Model) {
-        self.carried.clear();
-        for row in self.rows.iter().filter(|row| row.impulse > 0.0) {
-            self.carried.push((self.carrier(model, row), row.impulse));
-        }
-        self.carried.sort_unstable_by_key(|held| held.0);
-        self.carried.dedup_by(|next, held| {
-            let same = next.0 == held.0;
-            held.1 += if same { next.1 } else { 0.0 };
-            same
-        });
-    }
-
-    /// What bears a row's impulse at the end of the frame: a sphere may have come from its wall on to another one that
-    /// lies level with it, which it has not struck.
-    fn carrier(&self, model: &Model, row: &Row) -> Key {
-        let (kind, a, b) = row.key;
-        let (x, r) = (self.end.x[a], model.radii[a]);
-        if kind == Kind::Pair || row.is_level_with(&contact_time::touch(&model.faces[b], x, r)) {
-            return row.key;
-        }
-        let allowed = row.slack * self.settings.dt + overlap::touching(r, x.abs().max_element());
-        let found = &self.search.found;
-        let walls = found[found.partition_point(|key| *key < (kind, a, 0))..].iter();
-        let bears = |key: &&Key| {
-            let touch = contact_time::touch(&model.faces[key.2], x, r);
-            touch.gap <= allowed && row.is_level_with(&touch)
-        };
-        walls.take_while(|key| key.0 == kind && key.1 == a).find(bears).copied().unwrap_or(row.key)
     }
 
     /// Stops spheres that would pass into walls deeper than the tolerance allows, for this frame.

@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use super::super::contact::Key;
 use super::super::contact_time::Part;
-use super::super::model::Pull;
+use super::super::model::{Face, Pull};
 use super::super::overlap::touching;
 use super::super::{Class, Kind, Model, Settings, contact_time};
 
@@ -206,6 +206,16 @@ impl<'a> Path<'a> {
         meeting.filter(|meeting| !self.grazes(meeting, deepest)).or(over)
     }
 
+    /// Whether a sphere meets a wall in the plane of this face, to rounding.
+    pub(super) fn meets_in_plane_of(&self, face: &Face, meeting: &Meeting) -> bool {
+        let along = if meeting.normal.dot(face.normal) < 0.0 { -face.normal } else { face.normal };
+        let arm = self.size() + if meeting.time == 0.0 { meeting.way } else { 0.0 };
+        let point = self.from + self.velocity * meeting.time - meeting.normal * arm;
+        let center = face.shape.center;
+        let rounding = touching(self.size(), point.abs().max_element().max(center.abs().max_element()));
+        (meeting.normal - along).length_squared() <= ONE_POINT && along.dot(point - center).abs() <= rounding
+    }
+
     /// Whether a path that turns away from what it meets goes no deeper than to a gap of `deepest`, m.
     fn grazes(&self, meeting: &Meeting, deepest: f64) -> bool {
         if -meeting.normal.dot(self.velocity) > GRAZING * self.velocity.length() {
@@ -309,11 +319,6 @@ impl Row {
     /// Whether another row of the same sphere touches it at what is the same point to rounding, on an edge or a corner.
     pub(super) fn shares_crack_with(&self, other: &Row) -> bool {
         !other.face && (self.normal - other.normal).length_squared() <= ONE_CRACK
-    }
-
-    /// Whether a touch has the same normal.
-    pub(super) fn is_level_with(&self, touch: &contact_time::Touch) -> bool {
-        (self.normal - touch.normal).length_squared() <= ONE_POINT
     }
 
     /// Whether it comes before `best`: what is met earlier, of these what holds.
