@@ -38,6 +38,10 @@ const BEGINNING: f64 = 1.0 / 256.0;
 /// a thousand impacts may have made: 4096 ulp.
 const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
+/// Impacts by then of a contact that belongs to the same collapse, and rests with it: the limit of the chain is that none of
+/// them approaches any longer.
+const SHARE: u32 = 100;
+
 /// Approaches below this share of the speeds of their bodies are rounding: 64 ulp.
 const LOST: f64 = 64.0 * f64::EPSILON;
 
@@ -49,16 +53,18 @@ pub(super) struct Instant {
     spent: u64,
     stretch: u64,
     since: f64,
-    /// The fastest that the bodies of each contact in a long chain have been, or approached, m/s.
-    fastest: BTreeMap<Key, f64>,
+    /// The impacts of each contact in a long chain, and the fastest that its bodies have been or approached, m/s.
+    chain: BTreeMap<Key, (u32, f64)>,
+    /// Whether one of them has collapsed.
+    collapsed: bool,
     /// How often each contact has opened.
     releases: BTreeMap<Key, u32>,
 }
 
 impl Instant {
-    /// Whether a contact of a chain that approaches at this speed (m/s) has collapsed.
-    pub(super) fn has_collapsed(&self, key: Key, approach_speed: f64) -> bool {
-        self.fastest.get(&key).is_some_and(|&fastest| approach_speed <= ROUNDING * fastest)
+    /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
+    pub(super) fn has_collapsed(&self, key: Key) -> bool {
+        self.collapsed && self.chain.get(&key).is_some_and(|&(count, _)| count > SHARE)
     }
 
     /// The same of a contact that is about to collide once more, whose bodies have these speeds in all, m/s.
@@ -66,9 +72,11 @@ impl Instant {
         if self.events <= LONG_CHAIN {
             return false;
         }
-        let fastest = self.fastest.entry(key).or_default();
+        let (count, fastest) = self.chain.entry(key).or_default();
+        *count = count.saturating_add(1);
         *fastest = fastest.max(approach_speed).max(speeds);
-        self.has_collapsed(key, approach_speed)
+        self.collapsed |= *count > SHARE && approach_speed <= ROUNDING * *fastest;
+        self.has_collapsed(key)
     }
 
     /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
@@ -103,9 +111,9 @@ impl<D: Detector> Exact<D> {
         let Exact { instant, now, beginning, .. } = self;
         if time > *now {
             *now = time;
-            (instant.events, instant.spent) = (0, 0);
-            if !instant.fastest.is_empty() || !instant.releases.is_empty() {
-                instant.fastest.clear();
+            (instant.events, instant.spent, instant.collapsed) = (0, 0, false);
+            if !instant.chain.is_empty() || !instant.releases.is_empty() {
+                instant.chain.clear();
                 instant.releases.clear();
             }
         }

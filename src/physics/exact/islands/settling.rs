@@ -42,8 +42,7 @@ impl<D: Detector> Exact<D> {
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
             let meeting = self.seen(model, key, self.now);
-            if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key, -meeting.v_n)
-            {
+            if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key) {
                 continue;
             }
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.line(i).v.length() {
