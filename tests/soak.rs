@@ -11,6 +11,9 @@
 #[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/pty.rs"]
 mod pty;
+#[allow(dead_code)] // each test crate uses what it needs
+#[path = "support/watch.rs"]
+mod watch;
 
 use std::fs;
 
