@@ -22,7 +22,7 @@ const SMALL: f64 = 1e-7;
 /// So many bounces in a row must not have died out, and so many times 1 / (1 − e): restitution alone would have left e⁻⁵⁰
 /// of their speed. Across less than [`SMALL_HOP`] the first alone is enough.
 const MANY: u32 = 100;
-const DECAY: f64 = 50.0;
+pub(super) const DECAY: f64 = 50.0;
 
 /// Elastic bounces in a row that coordinates cannot tell from none.
 const LOST: u32 = 1000;
@@ -57,13 +57,14 @@ impl Row {
         Row { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
     }
 
-    fn is_endless(&self, approach_speed: f64, keeps: f64) -> bool {
+    /// Whether it goes on for ever: without the help of weights that change v_n by `pull` (m/s²) no chain of impacts is so
+    /// long beside what each of them loses.
+    fn is_endless(&self, approach_speed: f64, keeps: f64, pull: f64) -> bool {
         if keeps == 1.0 {
-            return self.count > LOST;
+            return self.count > LOST && self.is_fed(pull);
         }
-        let count = f64::from(self.count);
-        let lasts = self.count > MANY && count * (1.0 - keeps) > DECAY && approach_speed > self.due;
-        lasts || self.tiny > MANY
+        let loses = f64::from(self.count) * (1.0 - keeps) > DECAY;
+        self.count > MANY && loses && approach_speed > self.due || self.tiny > MANY && self.is_fed(pull)
     }
 
     /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.
@@ -98,7 +99,7 @@ impl<D: Detector> Exact<D> {
         row.tiny = if way <= (SMALL_HOP * meeting.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
         row.last = now;
         row.due *= keeps.sqrt();
-        row.is_endless(approach_speed, keeps) && row.is_fed(pull)
+        row.is_endless(approach_speed, keeps, pull)
     }
 
     /// Whether [`Exact::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.

@@ -39,7 +39,7 @@ impl<D: Detector> Exact<D> {
             log.tallies.collapses += 1;
             return Class::Rest;
         }
-        if class == Class::Collide && restitution < 1.0 && self.collapses(meeting) {
+        if class == Class::Collide && restitution < 1.0 && self.collapses(model, meeting) {
             log.tallies.collapses += 1;
             return Class::Rest;
         }

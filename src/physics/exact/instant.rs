@@ -1,14 +1,17 @@
 //! One instant: chains of impacts while the clock stands still, which of them never end, and when a run gives up.
 //!
 //! A chain that ends, however long, is computed to its end: a light ball between a wall and a heavy one is hit π √(M/m)
-//! times (Galperin 2003), and restitution just below 1 changes that little. A chain that never ends, inelastic collapse
-//! (McNamara, Young 1992), multiplies every approach speed by a factor below 1 again and again, so that its limit is that
-//! nothing approaches. So a contact has collapsed when it approaches by no more than rounding leaves of the fastest approach that
-//! it made at this instant: what is left of the chain, one that ends included, is then lost in the rounding of what it did.
+//! times (Galperin 2003), and restitution just below 1 changes that little. Two impacts of such a round multiply the two
+//! speeds by a matrix whose eigenvalues are complex, so that the chain ends, as long as 1 − e is less than 4 √(m/M) or so:
+//! n impacts of a chain that ends have n (1 − e) < 4π. A chain that never ends, inelastic collapse (McNamara, Young 1992),
+//! goes far beyond that, and multiplies every approach speed by a factor below 1 again and again: its limit is that nothing
+//! approaches. So a chain has collapsed when one of its contacts has had four times as many impacts as that, or approaches
+//! by no more than rounding leaves of what it did at this instant, or than the clock can tell of what pulls it.
 
 use std::collections::BTreeMap;
 
 use super::Exact;
+use super::chatter::DECAY;
 use super::impact::Meeting;
 use crate::physics::contact::Key;
 use crate::physics::detector::Detector;
@@ -67,15 +70,18 @@ impl Instant {
         self.collapsed && self.chain.get(&key).is_some_and(|&(count, _)| count > SHARE)
     }
 
-    /// The same of a contact that is about to collide once more, whose bodies have these speeds in all, m/s.
-    fn collapses(&mut self, key: Key, approach_speed: f64, speeds: f64) -> bool {
+    /// The same of a contact that is about to collide once more, at a speed (m/s) of which an impact takes the share `loses`;
+    /// `speeds` are those of its bodies in all, and no approach slower than `least` can be told from none, m/s.
+    fn collapses(&mut self, key: Key, approach_speed: f64, loses: f64, [speeds, least]: [f64; 2]) -> bool {
         if self.events <= LONG_CHAIN {
             return false;
         }
         let (count, fastest) = self.chain.entry(key).or_default();
         *count = count.saturating_add(1);
         *fastest = fastest.max(approach_speed).max(speeds);
-        self.collapsed |= *count > SHARE && approach_speed <= ROUNDING * *fastest;
+        let dies = f64::from(*count) * loses > DECAY && u64::from(*count) > LONG_CHAIN;
+        let rounds = approach_speed <= least.max(ROUNDING * *fastest);
+        self.collapsed |= dies || *count > SHARE && rounds;
         self.has_collapsed(key)
     }
 
@@ -149,9 +155,15 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Whether a contact that is about to collide once more at this instant has collapsed.
-    pub(super) fn collapses(&mut self, meeting: &Meeting) -> bool {
-        let speeds = self.speeds(meeting.key);
-        self.instant.collapses(meeting.key, -meeting.v_n, speeds)
+    pub(super) fn collapses(&mut self, model: &Model, meeting: &Meeting) -> bool {
+        let (kind, a, b) = meeting.key;
+        let (restitution, other) = match kind {
+            Kind::Wall => (model.law.wall_restitution, 0.0),
+            Kind::Pair => (model.law.restitution, model.acceleration(b).length()),
+        };
+        let least = self.tick() * (model.acceleration(a).length() + other);
+        let limits = [self.speeds(meeting.key), least];
+        self.instant.collapses(meeting.key, -meeting.v_n, 1.0 - restitution, limits)
     }
 
     /// Tells an impact in a long chain from a loop of rounding.
