@@ -29,7 +29,7 @@ pub(super) const RUBBED: Check = Check {
 
 /// Share of the tangential velocity that a bounce leaves, and what there is of it at first, m/s.
 const TANGENTIAL: f64 = 0.99;
-const SLIP: f64 = 0.3;
+const SLIP: f64 = 0.05;
 
 fn rubbed(lab: &Lab) -> Result<Vec<Row>, Trouble> {
     let row = |e: f64| {

@@ -19,7 +19,7 @@ pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 const BARELY: f64 = 1e-3;
 
 /// How much more than rounding it may cost to stop what opens by no more than rounding.
-const DEAR: f64 = 1e3;
+const DEAR: f64 = 10.0;
 
 /// An island after both complementarity problems.
 #[derive(Debug, Clone, PartialEq)]

@@ -123,6 +123,10 @@ mod tests {
             after += t;
             way += slip * t + pull * (0.5 * t * t);
             slip += pull * t;
+            if power == 0.0 && tangential < 1.0 {
+                // what has not been rubbed away by the time numbers end is so by the rest of infinitely many
+                (slip, keeps) = (DVec3::ZERO, 0.0);
+            }
             if power <= bound || power == 0.0 {
                 return Ending { after, way, slip, keeps };
             }
