@@ -36,6 +36,20 @@ pub(super) struct Overlaps {
     allowed: BTreeMap<Key, f64>,
 }
 
+/// Height of a hop, in radii, up to which event-driven methods sum up the bounces that follow: they say 1e-12, of the hop
+/// after the next.
+const SUMMED: f64 = 1e-10;
+
+/// Whether a bounce is so low that those after it may not be told one by one.
+pub(super) fn is_summed_up(model: &Model, row: &Contact) -> bool {
+    let pull = |i: usize| model.acceleration(i).length();
+    let (pull, reach) = match row.kind {
+        Kind::Wall => (pull(row.a), model.radii[row.a]),
+        Kind::Pair => (pull(row.a) + pull(row.b), model.radii[row.a] + model.radii[row.b]),
+    };
+    row.separation_speed * row.separation_speed <= 2.0 * pull * SUMMED * reach
+}
+
 impl Overlaps {
     pub(super) fn new(model: &Model) -> Overlaps {
         let crowd = Crowd::new(&model.radii);
@@ -97,9 +111,12 @@ impl Overlaps {
         self.found.iter().map(|at| at.key)
     }
 
-    /// Who touches without having just bounced off, by the contacts of the frame: something else may hold or stop it.
+    /// Who touches without having just bounced off, by the contacts of the frame: something else may hold or stop it. A
+    /// bounce so low that the rest of its series may be summed up counts as held.
     pub(super) fn held(&self, model: &Model, contacts: &[Contact]) -> BTreeSet<Key> {
-        let bounced = |row: &&Contact| row.class == Class::Collide && restitution(model, row.kind) > 0.0;
+        let bounced = |row: &&Contact| {
+            row.class == Class::Collide && restitution(model, row.kind) > 0.0 && !is_summed_up(model, row)
+        };
         let bounced: BTreeSet<Key> = contacts.iter().filter(bounced).map(Contact::key).collect();
         let rests = contacts.iter().filter(|row| row.class != Class::Collide).map(Contact::key);
         self.touching().filter(|key| !bounced.contains(key)).chain(rests).collect()

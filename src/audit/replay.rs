@@ -10,7 +10,7 @@ use crate::physics::{Class, Contact, Kind, Method, Model, State};
 
 use super::finding::{Bodies, Fault, Findings};
 use super::law::reduced_mass;
-use super::overlap::restitution;
+use super::overlap::{is_summed_up, restitution};
 use super::promise::ULPS;
 
 /// Share of the speeds that rounding may leave unexplained: impacts of bodies of very different mass lose some digits.
@@ -74,6 +74,7 @@ impl Replay {
             for row in contacts.iter().filter(|row| row.class == Class::Collide) {
                 taken += self.strike(model, after, row, &bound, findings);
             }
+            taken += self.rubbed(model, contacts);
             for i in (0..model.len()).filter(|&i| !bound.holds[i]) {
                 self.fly(model, i, after.t);
                 let off = (after.v[i] - self.known[i].v).length();
@@ -87,6 +88,21 @@ impl Replay {
             }
         }
         one_by_one.then_some(taken)
+    }
+
+    /// The energy (J) that series of bounces may take which are summed up: where bounces rub, all that moves along the wall.
+    fn rubbed(&self, model: &Model, contacts: &[Contact]) -> f64 {
+        let law = &model.law;
+        if law.tangential == 1.0 || law.wall_restitution == 0.0 || law.wall_restitution == 1.0 {
+            return 0.0;
+        }
+        let series = |row: &&Contact| match row.class {
+            Class::Collide => row.kind == Kind::Wall && is_summed_up(model, row),
+            Class::Rest => row.kind == Kind::Wall,
+            Class::Leave | Class::Release => false,
+        };
+        let all = |row: &Contact| 0.5 * model.masses[row.a] * self.scale[row.a] * self.scale[row.a];
+        contacts.iter().filter(series).map(all).sum()
     }
 
     /// Lets sphere `i` fly until `t` (s).

@@ -15,6 +15,9 @@ use crate::physics::{Kind, Model};
 /// A sphere this many radii from a face has just touched it.
 const SMALL_GAP: f64 = 1e-9;
 
+/// How far a sphere that something else holds may be pulled while bounces that are summed up go on, in radii.
+const PULLED: f64 = 1e-9;
+
 /// The change of velocity (m/s) that changes v_n by `change` (m/s): n `change` / n². A wall's normal is off by the same
 /// ulp in every impact, and so would be the energy.
 pub(super) fn along(normal: DVec3, change: f64) -> DVec3 {
@@ -110,10 +113,16 @@ impl<D: Detector> Exact<D> {
             return;
         }
         let bounces = self.bounces(model, meeting);
-        let ending = bounces.ending(model.law.rest_speed / -meeting.v_n);
-        let share = if meeting.flat { bounces.share_of_pull() } else { 1.0 };
+        let lone = meeting.flat && self.rests.count(a) == 0;
+        // what else holds the sphere decides how it is pulled: that must not matter before the bounces are over
+        let (still, pulled) = (Bounces { pull: DVec3::ZERO, ..bounces }, bounces.pull.length());
+        let ending = if lone { bounces } else { still }.ending(model.law.rest_speed / -meeting.v_n);
+        if !lone && 0.5 * pulled * ending.after * ending.after > PULLED * meeting.reach {
+            return;
+        }
+        let share = if lone { bounces.share_of_pull() } else { 1.0 };
         let change = bounces.pull * (share * ending.after);
-        let mean = ending.way / ending.after - change * 0.5;
+        let mean = ending.way / ending.after - if lone { change * 0.5 } else { DVec3::ZERO };
         if !mean.is_finite() {
             // the whole series is over before anything moves
             return;
@@ -129,8 +138,7 @@ impl<D: Detector> Exact<D> {
     /// Whether an impact on a wall that rubs, no rounding itself, is followed by bounces that only sums tell apart.
     fn leaves_a_series(&self, model: &Model, meeting: &Meeting) -> bool {
         let (law, e) = (&model.law, model.law.wall_restitution);
-        let free = meeting.key.0 == Kind::Wall && self.rests.count(meeting.key.1) == 0;
-        let series = free && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
+        let series = meeting.key.0 == Kind::Wall && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
         let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
         series && e * -meeting.v_n > law.rest_speed && e * e * hop <= Self::small_hop(meeting) && self.hops(meeting)
     }

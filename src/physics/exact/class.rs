@@ -20,8 +20,6 @@ const LEVEL: f64 = 0.7;
 impl<D: Detector> Exact<D> {
     /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
     pub(super) fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting, since: f64) -> Class {
-        let (kind, ..) = meeting.key;
-        let restitution = if kind == Kind::Wall { model.law.wall_restitution } else { model.law.restitution };
         let pressed = meeting.a_n < 0.0;
         if pressed && (self.hops_within_the_clock(meeting) || meeting.hops_within_rounding(-meeting.a_n)) {
             return Class::Rest;
@@ -39,7 +37,9 @@ impl<D: Detector> Exact<D> {
             log.tallies.collapses += 1;
             return Class::Rest;
         }
-        if class == Class::Collide && restitution < 1.0 && self.collapses(model, meeting) {
+        // of a chain that collapses elastic contacts are a part too, as long as something in the scene is lossy
+        let lossy = model.law.restitution < 1.0 || model.law.wall_restitution < 1.0;
+        if class == Class::Collide && lossy && self.collapses(model, meeting) {
             log.tallies.collapses += 1;
             return Class::Rest;
         }
