@@ -70,11 +70,17 @@ impl Meeting {
     }
 }
 
+/// Most contacts that a frame lists, a hundred megabytes: a chain of impacts at one instant may have more, which are
+/// counted and told as events all the same.
+const MOST_ROWS: usize = 1 << 20;
+
 /// Tells the log of an impact.
 #[inline]
 pub(super) fn note(log: &mut Log, row: Contact) {
     log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
-    log.contacts.push(row);
+    if log.contacts.len() < MOST_ROWS {
+        log.contacts.push(row);
+    }
     log.event(row);
 }
 
