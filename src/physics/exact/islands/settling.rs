@@ -222,7 +222,7 @@ impl<D: Detector> Exact<D> {
         if settled.curved {
             self.follow(
                 &spheres,
-                Curve::new(model, bodies, contacts, self.now).cut(pause.min(self.settling_time(keys) - self.now)),
+                Curve::new(model, bodies, contacts, self.now).cut(pause.min(self.rubbing_time(keys) - self.now)),
             );
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
@@ -241,6 +241,12 @@ impl<D: Detector> Exact<D> {
             let (normal, line) = (self.seen(model, key, self.now).normal, *self.flight.line(key.1));
             self.flight.rewrite(key.1, self.now, line.x, rub.end(line.v, normal));
         }
+    }
+
+    /// When the first series of bounces of these contacts that was summed up is over, s.
+    fn rubbing_time(&self, keys: &[Key]) -> f64 {
+        let held = keys.iter().filter_map(|key| self.rests.held.get(key)).filter(|held| held.rub.is_some());
+        held.map(|held| held.settles_at).filter(|&end| end > self.now).fold(f64::INFINITY, f64::min)
     }
 
     /// How much of its acceleration moves on a sphere whose only contact is one of bounces that were summed up.
