@@ -192,7 +192,7 @@ fn a_few_spheres_for_ten_seconds_are_little_work() {
         let scene = case(name);
         let mut run = Simulation::new(&scene, TIMED[0]);
         assert_eq!(support::run_to(&mut run, scene.duration, 1000), None);
-        // A few hundred thousand impacts are a second.
-        assert!(run.tallies().impacts < 300_000, "{name}: {:?}", run.tallies());
+        // A million impacts are a second or two.
+        assert!(run.tallies().impacts < 1_000_000, "{name}: {:?}", run.tallies());
     }
 }

@@ -11,7 +11,6 @@
 #[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/pty.rs"]
 mod pty;
-#[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/watch.rs"]
 mod watch;
 

@@ -18,6 +18,9 @@ pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// every step.
 const BARELY: f64 = 1e-3;
 
+/// Cosine of the angle between the normals of contacts that oppose each other: within a millirad of straight.
+const OPPOSED: f64 = -1.0 + 1e-6;
+
 /// How much more than rounding it may cost to stop what opens by no more than rounding.
 const DEAR: f64 = 10.0;
 
@@ -48,7 +51,7 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
     let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let stopped = velocities(all, &resting);
+    let stopped = velocities(all, if only_fits(&resting, &velocity) { &[] } else { &resting });
     for (place, &body) in stopped.bodies.iter().enumerate() {
         bodies[body].v = stopped.vectors[place];
     }
@@ -64,7 +67,7 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &[]);
     let mut settled = Settled {
         a: applied.clone(),
-        impulses: stopped.multipliers.clone(),
+        impulses: if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() },
         forces: vec![0.0; contacts.len()],
         fate: vec![Fate::Opening; contacts.len()],
         curved: false,
@@ -85,6 +88,18 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     settled.stop(bodies, tick);
     settled.let_go(bodies, &resting);
     settled
+}
+
+/// Whether nothing approaches but by rounding, and a body lies between two contacts that oppose each other: at the ends of
+/// two walls that a sphere just fits, to stop that much would take all of its speed.
+fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
+    let approaches = |contact: &Resting| {
+        let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -ROUNDING * speed
+    };
+    let opposes = |(one, other): (&Resting, &Resting)| one.a == other.a && one.normal.dot(other.normal) < OPPOSED;
+    let pairs = || resting.iter().enumerate().flat_map(|(k, one)| resting[..k].iter().map(move |other| (one, other)));
+    pairs().any(opposes) && !resting.iter().any(approaches)
 }
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
