@@ -2,6 +2,10 @@
 
 use super::*;
 
+/// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
+/// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
+const SUNK: f64 = 1e-13;
+
 /// Overlaps up to so many radii are healed; deeper ones are the scene's.
 const HEALED: f64 = 1e-10;
 
@@ -86,7 +90,8 @@ impl<'a> Motion<'a> {
 
     /// What later margins are measured from.
     pub(super) fn marks(&self, bodies: &[Body]) -> Marks {
-        Marks { rooms: self.rooms(bodies), openings: self.openings(bodies, &self.accelerations(bodies).0) }
+        let openings = self.openings(bodies, &self.accelerations(bodies).0);
+        Marks { rooms: self.rooms(bodies), openings, gaps: self.idle_gaps(bodies) }
     }
 
     /// Distance of each contact, holding ones before idle ones, from where another part of its wall takes over, in radii;
@@ -98,6 +103,11 @@ impl<'a> Motion<'a> {
             On::Body(_) => f64::INFINITY,
         };
         self.holding.iter().chain(&self.idle).map(of).collect()
+    }
+
+    /// Gaps of the idle contacts, in radii.
+    fn idle_gaps(&self, bodies: &[Body]) -> Vec<f64> {
+        self.idle.iter().map(|&contact| geometry(bodies, contact).1 / bodies[contact.a].r).collect()
     }
 
     /// J a + k of the idle contacts, in units of the applied acceleration.
@@ -124,7 +134,9 @@ impl<'a> Motion<'a> {
             let closing = IDLE + opening - before.min(0.0);
             closing.min(AJAR + before.max(0.0) - opening)
         });
-        loads.chain(rooms).chain(idle).fold(f64::INFINITY, f64::min)
+        let sunk = |(gap, before): (f64, &f64)| gap - before.min(0.0) + SUNK;
+        let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).map(sunk);
+        loads.chain(rooms).chain(idle).chain(gaps).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -138,10 +150,11 @@ pub(super) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
     accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
 }
 
-/// Rooms and openings at the beginning of an arc.
+/// Rooms, openings and gaps of idle contacts at the beginning of an arc.
 pub(super) struct Marks {
     rooms: Vec<f64>,
     openings: Vec<f64>,
+    gaps: Vec<f64>,
 }
 
 /// Largest applied acceleration, m/s²: the unit of loads.
