@@ -35,6 +35,27 @@ impl std::ops::Deref for Roots {
     }
 }
 
+/// The first t ≥ 0 at which c₀ + c₁ t + c₂ t² is ≤ 0 and falling, if any. Stable: q = −(b + sign(b)√D)/2.
+#[inline]
+pub fn quadratic_fall(c: [f64; 3]) -> Option<f64> {
+    let [c0, c1, c2] = c;
+    let half = 0.5 * c1;
+    if half < 0.0 {
+        if c0 <= 0.0 {
+            return Some(0.0);
+        }
+        let discriminant = half * half - c0 * c2;
+        // D = 0 only touches
+        return (discriminant > 0.0).then(|| c0 / (discriminant.sqrt() - half));
+    }
+    if c2 >= 0.0 {
+        return None;
+    }
+    // rises to the apex and falls from there on
+    let discriminant = half * half - c0 * c2;
+    if discriminant <= 0.0 { Some(-half / c2) } else { Some((half + discriminant.sqrt()) / -c2) }
+}
+
 /// Σ cᵢ tⁱ by Horner's rule.
 pub fn value(c: &[f64], t: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, &k| sum * t + k)

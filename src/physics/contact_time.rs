@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::model::Face;
 use super::motion::normal_velocity;
 use super::parts::part_ahead;
-use crate::roots::{bound, bracketed, monotone, value};
+use crate::roots::{bound, bracketed, monotone, quadratic_fall, value};
 
 /// An approach that would go no deeper than this, relative to the coordinates, before it turns back is none: 8 ulp.
 const GRAZE: f64 = 8.0 * f64::EPSILON;
@@ -153,27 +153,6 @@ pub fn curvature(face: &Face, part: Part, normal: DVec3, v: DVec3, r: f64) -> f6
         }
         Part::Corner(_) => across.length_squared() / r,
     }
-}
-
-/// The first t ≥ 0 at which c₀ + c₁ t + c₂ t² is ≤ 0 and falling, if any. Stable: q = −(b + sign(b)√D)/2.
-#[inline]
-pub fn quadratic_fall(c: [f64; 3]) -> Option<f64> {
-    let [c0, c1, c2] = c;
-    let half = 0.5 * c1;
-    if half < 0.0 {
-        if c0 <= 0.0 {
-            return Some(0.0);
-        }
-        let discriminant = half * half - c0 * c2;
-        // D = 0 only touches
-        return (discriminant > 0.0).then(|| c0 / (discriminant.sqrt() - half));
-    }
-    if c2 >= 0.0 {
-        return None;
-    }
-    // rises to the apex and falls from there on
-    let discriminant = half * half - c0 * c2;
-    if discriminant <= 0.0 { Some(-half / c2) } else { Some((half + discriminant.sqrt()) / -c2) }
 }
 
 /// The times t in [0, before) from which a quartic is ≤ 0 while falling, one for each stretch on which it falls.

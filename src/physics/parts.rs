@@ -5,8 +5,9 @@
 
 use glam::DVec3;
 
-use super::contact_time::{Part, Path, quadratic_fall};
+use super::contact_time::{Part, Path};
 use super::model::Face;
+use crate::roots::quadratic_fall;
 
 /// A plane beyond which another part takes over: `normal`·(x − `at`) is the room left, m.
 #[derive(Clone, Copy)]

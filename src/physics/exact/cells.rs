@@ -12,8 +12,9 @@ use glam::DVec3;
 
 use super::lanes::Lanes;
 use super::near::{MOST_NEAR, Near, ROOM};
-use crate::physics::contact_time::{Path, quadratic_fall};
+use crate::physics::contact_time::Path;
 use crate::physics::model::Model;
+use crate::roots::quadratic_fall;
 pub(super) use layout::Layout;
 
 pub(super) mod layout;

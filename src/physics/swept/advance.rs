@@ -12,11 +12,12 @@
 use std::cell::{Cell, RefCell};
 
 use super::sight::{Glance, Pair, Sight, Wall};
-use crate::physics::contact_time::{Path, quadratic_fall};
+use crate::physics::contact_time::Path;
 use crate::physics::detector::{Detector, Due, Span};
 use crate::physics::log::Log;
 use crate::physics::model::Face;
 use crate::physics::{Probe, Settings};
+use crate::roots::quadratic_fall;
 
 /// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
 const LARGEST_TOLERANCE: f64 = 0.5;
