@@ -8,6 +8,8 @@
 
 #[path = "campaign/crowds.rs"]
 mod crowds;
+#[path = "campaign/halves.rs"]
+mod halves;
 #[path = "campaign/joints.rs"]
 mod joints;
 #[path = "campaign/judged.rs"]

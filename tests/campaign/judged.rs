@@ -8,6 +8,8 @@ use carom::physics::contact_time::{Part, touch};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use glam::dvec3;
 
+use crate::halves::Halves;
+
 /// Frames are half seconds, or shorter where something happens.
 pub(crate) const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
 
@@ -92,7 +94,7 @@ fn is_open(finding: &Finding) -> bool {
     }
 }
 
-fn fail(kind: &str, text: String) -> Result<(), Failure> {
+pub(crate) fn fail(kind: &str, text: String) -> Result<(), Failure> {
     Err(Failure { kind: kind.into(), text })
 }
 
@@ -106,6 +108,7 @@ fn go_on(
     let strict = std::env::var_os("CAROM_CAMPAIGN_STRICT").is_some();
     // a frame that is judged has cost at least this many turns, if it was no slice of its own
     let mut frames = 0;
+    let mut looks = Halves::of(run);
     while run.time() < 0.5 * f64::from(halves) {
         let before = thread_cpu();
         let progress = run.advance(Until::Frame, SLICE);
@@ -123,6 +126,9 @@ fn go_on(
                     return fail(&format!("{:?}", finding.fault), finding.to_string());
                 }
                 met.open = u64::from(!rows.is_empty());
+                if generator.boxed {
+                    looks.look(run)?;
+                }
             }
         }
         if met.slices * SLICE + frames > generator.budget {
