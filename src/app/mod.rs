@@ -132,7 +132,7 @@ pub struct App {
     comparison: Option<Comparison>,
     /// The exact run that was shown last, while it ends.
     ending: Option<Ending>,
-    /// The scene that comes next, if one is on its way, and who fetches it.
+    /// The scene that comes next, if one is being opened, and the channel that it arrives on.
     loading: Option<Loading>,
     errands: Option<Errands>,
     notify: Notify,

@@ -106,12 +106,12 @@ impl Overlaps {
         }
     }
 
-    /// Who touches in the state looked at last.
+    /// Contacts that touch in the state looked at last.
     pub(super) fn touching(&self) -> impl Iterator<Item = Key> + '_ {
         self.found.iter().map(|at| at.key)
     }
 
-    /// Who touches without having just bounced off, by the contacts of the frame: something else may hold or stop it. A
+    /// Contacts that touch without a bounce in this frame: something else may hold or stop their bodies. A
     /// bounce so low that the rest of its series may be summed up counts as held.
     pub(super) fn held(&self, model: &Model, contacts: &[Contact]) -> BTreeSet<Key> {
         let bounced = |row: &&Contact| {
@@ -122,7 +122,7 @@ impl Overlaps {
         self.touching().filter(|key| !bounced.contains(key)).chain(rests).collect()
     }
 
-    /// Finds whoever touches.
+    /// Finds the contacts that touch, walls and pairs.
     fn find(&mut self, model: &Model, x: &[DVec3]) {
         let Overlaps { boards, crowd, found, .. } = self;
         found.clear();

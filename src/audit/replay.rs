@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-11;
 /// Height of a hop, in radii, below which event-driven methods let a row of bounces end in rest without telling each.
 const HOP: f64 = 1e-6;
 
-/// Who touches, and so may be held, stopped or released by what is no impact of the frame.
+/// Contacts that touch: something that is no impact of the frame may hold, stop or release their bodies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Freedom<'a> {
     /// At the end of the frame before.
@@ -191,7 +191,7 @@ impl Replay {
 struct Bound {
     /// Whether something that is no impact may have changed the velocity.
     holds: Vec<bool>,
-    /// Who belongs together: another one of the group, or itself.
+    /// By sphere, another sphere of its group, or itself at the group's root.
     parent: Vec<usize>,
     /// By the group's root, whether one of it touches a wall.
     walled: Vec<bool>,
@@ -215,7 +215,7 @@ impl Bound {
     }
 }
 
-/// Who is bound by what touches, rests or collides in a frame.
+/// The spheres that are bound by contacts that touch, rest or collide in a frame.
 fn free_spheres(model: &Model, free: Freedom, contacts: &[Contact]) -> Bound {
     let n = model.len();
     let slow = 2.0 * model.law.rest_speed * model.law.rest_speed;

@@ -62,7 +62,7 @@ impl Jury {
         }
     }
 
-    /// What the closing line says of it: nothing if nothing is wrong and nobody asked.
+    /// What the closing line says of it: empty if nothing is wrong and no check was asked for.
     pub(super) fn words(&self) -> String {
         let alarm = self.watch.alarm();
         let alarm = if alarm.is_silent() { String::new() } else { format!(" alarm={}", alarm.words()) };

@@ -87,7 +87,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     Ok(measured)
 }
 
-/// What must be said of a scene and the shortest step on the ladder, if nobody will see the end of that.
+/// What must be said of a scene and the shortest step on the ladder, if that takes too long to end.
 fn endless(opened: &Opened, ladder: &Ladder) -> Option<String> {
     let until = opened.scene.duration;
     let by_step = |a: &Rung, b: &Rung| a.settings(until).dt.total_cmp(&b.settings(until).dt);

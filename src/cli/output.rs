@@ -169,7 +169,7 @@ fn replacement(path: &Path, found: Option<&Metadata>) -> io::Result<Sink> {
     Ok(Sink::Replacement(file, path.to_path_buf()))
 }
 
-/// The system's own words: tempfile adds the path of its file, which nobody has named.
+/// The system's own words: tempfile adds the path of its file, which the command line does not name.
 fn unwrapped(error: io::Error) -> io::Error {
     let text = error.to_string();
     io::Error::new(error.kind(), text.split(" (os error ").next().unwrap_or(&text).to_owned())

@@ -11,8 +11,8 @@ const RESOLVED: f64 = 1e6;
 /// Frames that nobody waits for: at a nanosecond each, a quarter of an hour.
 const FRAMES: f64 = 1e12;
 
-/// How many times its own duration a scene without frames runs while somebody waits: at a microsecond each, a quarter
-/// of an hour.
+/// Durations of a scene that a run without frames may last before it is warned of: at a microsecond each, a quarter of
+/// an hour.
 const DURATIONS: f64 = 1e9;
 
 /// Sentences on what is allowed in the scene, solved with `settings` up to `until` (s), but probably not meant; none for

@@ -186,8 +186,9 @@ impl Cells {
         }
     }
 
-    /// Whom a sphere in a cube may meet: who is around it, or came within reach when it went `way` into it, and who is in
-    /// no cube; everybody, if it is in none itself. Whoever is in no cube has been looked at before a crossing.
+    /// Seats of the spheres that one in a cube may meet: those around it and those in no cube; after it went `way` only
+    /// those that came within reach, since the ones in no cube have been looked at before. A sphere that is itself in no
+    /// cube may meet all.
     #[inline(always)]
     pub(super) fn look(&self, spot: Spot, way: Option<Way>, near: &mut Near, seats: usize) {
         match way {
