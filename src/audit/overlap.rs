@@ -114,10 +114,15 @@ impl Overlaps {
     /// Contacts that touch without a bounce in this frame: something else may hold or stop their bodies. A
     /// bounce so low that the rest of its series may be summed up counts as held.
     pub(super) fn held(&self, model: &Model, contacts: &[Contact]) -> BTreeSet<Key> {
-        let bounced = |row: &&Contact| {
-            row.class == Class::Collide && restitution(model, row.kind) > 0.0 && !is_summed_up(model, row)
-        };
-        let bounced: BTreeSet<Key> = contacts.iter().filter(bounced).map(Contact::key).collect();
+        // a contact may bounce on, lower and lower: its last impact tells
+        let mut bounced = BTreeSet::new();
+        for row in contacts.iter().filter(|row| row.class == Class::Collide) {
+            if restitution(model, row.kind) > 0.0 && !is_summed_up(model, row) {
+                bounced.insert(row.key());
+            } else {
+                bounced.remove(&row.key());
+            }
+        }
         let rests = contacts.iter().filter(|row| row.class != Class::Collide).map(Contact::key);
         self.touching().filter(|key| !bounced.contains(key)).chain(rests).collect()
     }

@@ -45,11 +45,13 @@ pub(super) struct Replay {
     known: Vec<Known>,
     /// Fastest since the last impact, m/s: what rounding is relative to.
     scale: Vec<f64>,
+    /// What no sphere's speed exceeds in this frame, m/s.
+    fastest: Vec<f64>,
 }
 
 impl Replay {
     pub(super) fn new(state: &State) -> Replay {
-        Replay { known: Vec::new(), scale: state.v.iter().map(|v| v.length()).collect() }
+        Replay { known: Vec::new(), scale: state.v.iter().map(|v| v.length()).collect(), fastest: Vec::new() }
     }
 
     /// Judges the velocities at the ends of two frames, and the contacts between; the energy (J) that impacts and rests may
@@ -71,8 +73,14 @@ impl Replay {
         let one_by_one = matches!(method, Method::Exact | Method::Swept);
         let mut taken = bound.slack;
         if one_by_one {
-            for row in contacts.iter().filter(|row| row.class == Class::Collide) {
-                taken += self.strike(model, after, row, &bound, findings);
+            self.find_fastest(model, &bound, [before, after]);
+            for row in contacts {
+                taken += match row.class {
+                    Class::Collide => self.strike(model, after, row, &bound, findings),
+                    // what impulses take that act together: ½ J (v_n before + v_n after), each
+                    Class::Rest => 0.5 * row.impulse * row.approach_speed,
+                    Class::Leave | Class::Release => 0.0,
+                };
             }
             taken += self.rubbed(model, contacts);
             for i in (0..model.len()).filter(|&i| !bound.holds[i]) {
@@ -101,8 +109,25 @@ impl Replay {
             Class::Rest => row.kind == Kind::Wall,
             Class::Leave | Class::Release => false,
         };
-        let all = |row: &Contact| 0.5 * model.masses[row.a] * self.scale[row.a] * self.scale[row.a];
+        let all = |row: &Contact| 0.5 * model.masses[row.a] * self.fastest[row.a] * self.fastest[row.a];
         contacts.iter().filter(series).map(all).sum()
+    }
+
+    /// Bounds the speeds within the frame. Contacts do no work, so that √K of bodies that touch each other grows by no more
+    /// than t √(½ Σ m a²), and ½ m v² of one is at most all of K.
+    fn find_fastest(&mut self, model: &Model, bound: &Bound, [before, after]: [&State; 2]) {
+        let h = after.t - before.t;
+        let mut sums = vec![(0.0, 0.0); model.len()];
+        for i in 0..model.len() {
+            let (m, sum) = (model.masses[i], &mut sums[bound.root(i)]);
+            sum.0 += 0.5 * m * before.v[i].length_squared();
+            sum.1 += 0.5 * m * model.acceleration(i).length_squared();
+        }
+        let most = |i: usize| {
+            let (kinetic, pull): (f64, f64) = sums[bound.root(i)];
+            (kinetic.sqrt() + h * pull.sqrt()) * (2.0 / model.masses[i]).sqrt()
+        };
+        self.fastest = (0..model.len()).map(most).collect();
     }
 
     /// Lets sphere `i` fly until `t` (s).
@@ -146,7 +171,7 @@ impl Replay {
         } else {
             let (across, keeps) = (relative - n * v_n, model.law.tangential);
             // what rests also may strike with what its support has left of its velocity, or given it
-            let most = across.length().max(self.scale[a]);
+            let most = across.length().max(self.fastest[a]);
             let across_squared = if bound.holds[a] { most * most } else { across.length_squared() };
             taken += 0.5 * model.masses[a] * (1.0 - keeps * keeps) * across_squared;
             self.known[a].v += n * change + across * (keeps - 1.0);

@@ -32,8 +32,9 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
         findings.hold(Fault::RestGap, t, bodies, [gap, allowed]);
         let v = |i: usize| frame.state.v[i];
         let other = if row.kind == Kind::Pair { v(row.b) } else { DVec3::ZERO };
-        let along = (v(row.a) - other).dot(offset / distance).abs();
-        findings.hold(Fault::RestSpeed, t, bodies, [along, slowest(model, settings, row, [v(row.a), other])]);
+        // what carries nothing any longer may open, as long as its gap is that of what touches
+        let approach = -(v(row.a) - other).dot(offset / distance);
+        findings.hold(Fault::RestSpeed, t, bodies, [approach, slowest(model, settings, row, [v(row.a), other])]);
     }
 }
 

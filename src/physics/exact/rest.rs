@@ -31,6 +31,10 @@ pub(super) struct Settled {
     pub(super) a: Vec<DVec3>,
     /// Impulses that stopped what still approached, N s, by contact.
     pub(super) impulses: Vec<f64>,
+    /// Normal velocities before they were stopped, m/s, by contact.
+    pub(super) v_n: Vec<f64>,
+    /// Whether the impulse of a contact changed a velocity by more than what counts as closed.
+    pub(super) struck: Vec<bool>,
     /// Support forces, N, by contact.
     pub(super) forces: Vec<f64>,
     /// What becomes of every contact.
@@ -65,9 +69,16 @@ pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     let touching: Vec<Resting> = closed.iter().map(|&index| resting[index]).collect();
     let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
     let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &[]);
+    let impulses = if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() };
+    let strikes = |(contact, impulse): (&Resting, &f64)| {
+        let change = |body: usize| impulse * inverse_mass[body] > slack[body];
+        change(contact.a) || contact.b.is_some_and(change)
+    };
     let mut settled = Settled {
         a: applied.clone(),
-        impulses: if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() },
+        struck: resting.iter().zip(&impulses).map(strikes).collect(),
+        v_n: resting.iter().map(|contact| relative(contact, &|body| velocity[body]).dot(contact.normal)).collect(),
+        impulses,
         forces: vec![0.0; contacts.len()],
         fate: vec![Fate::Opening; contacts.len()],
         curved: false,
@@ -156,8 +167,9 @@ impl Settled {
         }
     }
 
-    /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches an idle
-    /// contact: nothing else would, for it counts as held. By no more than rounding: of two walls that are nearly one, to
+    /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
+    /// contact of the island, idle or just opening: nothing else would, and to part them afterwards would push one body
+    /// alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
     /// stand still on both would stop the motion along them, and the one that opens lets go instead.
     fn still(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
         let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
@@ -174,10 +186,12 @@ impl Settled {
             let approaches = |index: usize| {
                 let contact = &resting[index];
                 let noise = ROUNDING * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
-                relative(contact, &|body| v[body]).dot(contact.normal) < -noise
+                // the normal of an edge, or a corner, is off by as much as its border is late: what opens there may seem to close
+                let sharp = contact.b.is_none() && contact.surface != Surface::Face;
+                let may_close = self.fate[index] == Fate::Idle || !sharp;
+                may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
             };
-            let idle = |index: &usize| self.fate[*index] == Fate::Idle && !holds[*index];
-            let new: Vec<usize> = (0..holds.len()).filter(idle).filter(|&index| approaches(index)).collect();
+            let new: Vec<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
             if new.is_empty() {
                 break;
             }
@@ -194,6 +208,12 @@ impl Settled {
             return;
         }
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+        let closes = |(fate, holds): (&mut Fate, bool)| {
+            if holds && *fate == Fate::Opening {
+                *fate = Fate::Idle;
+            }
+        };
+        self.fate.iter_mut().zip(holds).for_each(closes);
     }
 
     /// An idle contact whose bodies drift apart lets go, however slowly: what would meet there again must be seen.

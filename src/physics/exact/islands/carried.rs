@@ -54,7 +54,7 @@ impl<D: Detector> Exact<D> {
         for (&key, held) in &self.rests.held {
             let impulse = Load { since: held.load.since.max(start), ..held.load }.given(end);
             let begun = |row: &crate::physics::Contact| row.class == Class::Rest && row.key() == key;
-            if held.announced && !log.contacts[..met].iter().any(begun) {
+            if held.announced && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
                 let row = self.shown(model, key, end).row(end, Class::Rest, impulse, 0.0);
                 log.contacts.push(crate::physics::Contact { approach_speed: 0.0, ..row });
             }

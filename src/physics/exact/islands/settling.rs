@@ -1,6 +1,7 @@
 //! What an event does to the islands: spheres brought up to date, contacts released, islands settled anew.
 
 use super::*;
+use crate::physics::exact::class::SMALL_HOP;
 use crate::physics::exact::rest::ROUNDING;
 
 /// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
@@ -291,16 +292,21 @@ impl<D: Detector> Exact<D> {
         }
     }
 
-    /// Writes a `rest` row for every contact that begins to carry a load.
+    /// Writes a `rest` row for every contact that begins to carry a load, and for every other one whose impulse stopped an
+    /// approach, here or further up the pile: without it, a change of velocity would stand nowhere.
     fn announce(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
             let mut meeting = self.seen(model, key, self.now);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
-            if settled.fate[index] != Fate::Loaded || held.announced || held.settles_at > self.now {
+            let begins = settled.fate[index] == Fate::Loaded && !held.announced;
+            // a contact whose bounces are summed up rests when they are over, unless more than a bounce stops it
+            let bounces = !held.announced && held.settles_at > self.now;
+            let struck = settled.struck[index] && !(bounces && is_a_bounce(model, &meeting, settled.impulses[index]));
+            if !struck && (bounces || !begins) {
                 continue;
             }
+            meeting.v_n = if struck { settled.v_n[index] } else { held.v_n };
             held.announced = true;
-            meeting.v_n = held.v_n;
             let row = meeting.row(self.now, Class::Rest, settled.impulses[index], 0.0);
             log.contacts.push(row);
             log.event(row);
@@ -337,4 +343,13 @@ impl<D: Detector> Exact<D> {
         );
         Stall { time: self.now, kind: "resting-contact", reason }
     }
+}
+
+/// Whether an impulse (N s) changes v_n by no more than one of the bounces that are summed up.
+fn is_a_bounce(model: &Model, meeting: &Meeting, impulse: f64) -> bool {
+    let (kind, a, b) = meeting.key;
+    let of = |i: usize| (impulse * model.inverse_masses[i], model.acceleration(i).length());
+    let ((one, pull), (other, more)) = (of(a), if kind == Kind::Pair { of(b) } else { (0.0, 0.0) });
+    let change = one + other;
+    change * change <= 8.0 * (pull + more) * SMALL_HOP * meeting.reach
 }
