@@ -8,7 +8,7 @@ use carom::audit::{Bodies, Fault, Frame, Judge, Watch};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, gas, paper, paper_scene, room, scene, sphere, wall};
+use support::{ELASTIC, G, PAPER_LAW, changed, gas, paper, paper_scene, room, scene, sphere, wall};
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
 
@@ -174,8 +174,7 @@ fn the_watch_alarms_with_time_and_bodies() {
 
 #[test]
 fn spheres_that_overlap_far_from_the_first_are_found_among_many() {
-    let mut crowd = gas(1000, 3, 0.0);
-    crowd.walls = room(DVec3::splat(-10.0), DVec3::splat(10.0));
+    let crowd = changed(&gas(1000, 3, 0.0), |draft| draft.walls = room(DVec3::splat(-10.0), DVec3::splat(10.0)));
     let run = Simulation::new(&crowd, EXACT);
     let mut state = run.state();
     state.x[700] = state.x[999] + dvec3(0.19, 0.0, 0.0);

@@ -162,8 +162,7 @@ fn a_ball_comes_to_rest_on_redundant_supports() {
 
 #[test]
 fn a_ball_in_a_pit_of_four_slopes_lies_still() {
-    let mut scene = case("pit");
-    scene.duration = 100.0;
+    let scene = support::changed(&case("pit"), |draft| draft.duration = 100.0);
     for settings in TIMED {
         let (mut run, state) = run(&scene, settings, 1e-12);
         assert_eq!(state.v[0], DVec3::ZERO, "{:?}", settings.method);

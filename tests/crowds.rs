@@ -3,6 +3,7 @@
 mod support;
 
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
+use carom::random::SplitMix64;
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
 use support::{ELASTIC, lattice, room, scene, sphere};
@@ -44,13 +45,9 @@ fn cost(scene: &Scene, until: f64) -> Cost {
 }
 
 /// Numbers in [−½, ½), the same in every run.
-fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-    move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    }
+fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut random = SplitMix64::new(seed);
+    move || random.unit() - 0.5
 }
 
 fn vector(next: &mut impl FnMut() -> f64) -> DVec3 {

@@ -8,7 +8,7 @@ use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Si
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use sums::Sum;
-use support::{ELASTIC, gas, paper_scene, run_to};
+use support::{ELASTIC, changed, gas, moved, paper_scene, run_to};
 
 fn exact(dt: f64) -> Settings {
     Settings { method: Method::Exact, dt, tolerance: 1e-3 }
@@ -122,16 +122,12 @@ proptest! {
 
 /// A run that goes on where another one is, from plain data alone.
 fn again(scene: &Scene, run: &Simulation) -> Simulation {
-    let (mut frozen, state) = (scene.clone(), run.state());
-    for (body, (x, v)) in frozen.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
-        (body.x, body.v) = (*x, *v);
-    }
-    Simulation::resumed(&frozen, run.settings(), run.time(), &run.transient())
+    Simulation::resumed(&moved(scene, &run.state()), run.settings(), run.time(), &run.transient())
 }
 
 #[test]
 fn a_run_continues_bit_for_bit_from_where_another_one_was_and_how_it_began() {
-    let gas = Scene { gravity: support::G, ..gas(100, 8, 1.0) };
+    let gas = changed(&gas(100, 8, 1.0), |draft| draft.gravity = support::G);
     for (scene, until) in SCENES.map(|(name, until)| (open(name), until)).into_iter().chain([(gas, 2.0)]) {
         let name = &scene.name;
         let expected = whole(&scene, until, 0.05);
@@ -203,11 +199,8 @@ fn a_run_begun_by_the_other_method_continues_from_there() {
 
 /// The scene as it stands, going back the way it came.
 fn reversed(scene: &Scene, state: &State) -> Scene {
-    let mut scene = scene.clone();
-    for (body, (x, v)) in scene.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
-        (body.x, body.v) = (*x, -*v);
-    }
-    scene
+    let v = state.v.iter().map(|v| -*v).collect();
+    moved(scene, &State { v, ..state.clone() })
 }
 
 #[test]
@@ -216,7 +209,7 @@ fn elastic_runs_go_back_the_way_they_came() {
     // has no unique way back. Rounding, 1e-15 m, grows by 2 at most in paper-2, by nothing in paper-0, but each of the
     // impacts adds its own: a prototype returned to 1e-13 and 1e-12 m.
     for (k, tolerance) in [(0, 1e-12), (2, 1e-11)] {
-        let scene = Scene { contact: ELASTIC, ..paper_scene(k) };
+        let scene = changed(&paper_scene(k), |draft| draft.contact = ELASTIC);
         let there = whole(&scene, 10.0, 0.1);
         // A millisecond short of the start, where some touch a wall: the impact on it may be due or not, by rounding.
         let back = whole(&reversed(&scene, &there), 9.999, 0.1);
@@ -280,15 +273,16 @@ fn an_elastic_gas_keeps_energy_and_momentum_over_hundreds_of_thousands_of_impact
 
 #[test]
 fn a_gas_in_a_tilted_box_keeps_energy_and_momentum_though_its_normals_are_rounded() {
-    let mut scene = gas(27, 7, 1.0);
     let turn = DQuat::from_axis_angle(DVec3::new(2.0, 3.0, 6.0) / 7.0, 1.0);
-    for wall in &mut scene.walls {
-        let shape = &mut wall.shape;
-        (shape.center, shape.s1, shape.s2) = (turn * shape.center, turn * shape.s1, turn * shape.s2);
-    }
-    for body in &mut scene.spheres {
-        (body.x, body.v) = (turn * body.x, turn * body.v);
-    }
+    let scene = changed(&gas(27, 7, 1.0), |draft| {
+        for wall in &mut draft.walls {
+            let shape = &mut wall.shape;
+            (shape.center, shape.s1, shape.s2) = (turn * shape.center, turn * shape.s1, turn * shape.s2);
+        }
+        for body in &mut draft.spheres {
+            (body.x, body.v) = (turn * body.x, turn * body.v);
+        }
+    });
     let (energy, momentum) = drifts(&scene, 100_000);
     // A normal's square is off by up to an ulp, and by the same in every impact: 4000 of them a sphere would leave 1e-12.
     // That is taken back but for what is under half an ulp of the change, a tenth of an ulp on average: 1e-13.
@@ -298,11 +292,12 @@ fn a_gas_in_a_tilted_box_keeps_energy_and_momentum_though_its_normals_are_rounde
 #[test]
 fn a_mixture_under_gravity_keeps_energy_and_momentum_too() {
     // Fewer than 64 spheres: every pair is looked at; masses over two decades.
-    let mut scene = gas(60, 6, 1.0);
-    scene.gravity = support::G;
-    for (i, body) in scene.spheres.iter_mut().enumerate() {
-        body.mass = [0.1, 1.0, 10.0][i % 3];
-    }
+    let scene = changed(&gas(60, 6, 1.0), |draft| {
+        draft.gravity = support::G;
+        for (i, body) in draft.spheres.iter_mut().enumerate() {
+            body.mass = [0.1, 1.0, 10.0][i % 3];
+        }
+    });
     let (energy, momentum) = drifts(&scene, 50_000);
     // Parabolas round, too: a walk of √(50 000 · some) ulp, mostly of the twenty heavy ones. And Σ m g t has grown to a
     // thousand times the momentum by then, so that its own last digit is 1e-13 of it.

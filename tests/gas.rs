@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, gas, run_to, sphere};
+use support::{ELASTIC, G, changed, gas, run_to, sphere};
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.01, tolerance: 1e-3 };
 
@@ -26,23 +26,21 @@ fn impacts(scene: &Scene, count: usize) -> Vec<Contact> {
 
 /// Up to 64 spheres all pairs are looked at, beyond them cells: one more outside the room makes the difference.
 fn with_one_outside(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    scene.spheres.push(sphere(DVec3::splat(3.0), dvec3(0.3, 0.2, 0.1), 0.1));
-    scene
+    changed(scene, |draft| draft.spheres.push(sphere(DVec3::splat(3.0), dvec3(0.3, 0.2, 0.1), 0.1)))
 }
 
 /// Gases of 64: straight, falling, with a force on one sphere, and one big sphere among so small ones that they crowd
 /// the cells.
 fn gases() -> [(&'static str, Scene); 4] {
     let straight = gas(64, 5, 1.0);
-    let falling = Scene { gravity: G, ..straight.clone() };
-    let mut forced = falling.clone();
-    forced.spheres[3].force = dvec3(1.0, 2.0, -3.0);
-    let mut crowded = falling.clone();
-    for (i, body) in crowded.spheres.iter_mut().enumerate() {
-        body.radius = if i == 21 { 0.1 } else { 0.02 };
-        body.x *= 0.5;
-    }
+    let falling = changed(&straight, |draft| draft.gravity = G);
+    let forced = changed(&falling, |draft| draft.spheres[3].force = dvec3(1.0, 2.0, -3.0));
+    let crowded = changed(&falling, |draft| {
+        for (i, body) in draft.spheres.iter_mut().enumerate() {
+            body.radius = if i == 21 { 0.1 } else { 0.02 };
+            body.x *= 0.5;
+        }
+    });
     [("straight", straight), ("falling", falling), ("forced", forced), ("crowded", crowded)]
 }
 
@@ -62,7 +60,7 @@ fn cells_and_all_pairs_find_the_same_events() {
 
 #[test]
 fn slices_and_looks_change_no_bit_of_a_gas() {
-    let scene = Scene { gravity: G, ..gas(500, 11, 1.0) };
+    let scene = changed(&gas(500, 11, 1.0), |draft| draft.gravity = G);
     let mut whole = Simulation::new(&scene, EXACT);
     assert_eq!(run_to(&mut whole, 1.0, u64::MAX), None);
     for work in [1, 7, 1000] {
@@ -90,7 +88,7 @@ fn so_many_spheres_that_events_are_looked_up_ahead_make_the_same_run_in_slices_t
 #[test]
 fn a_gas_keeps_its_energy_and_no_sphere_enters_another() {
     for gravity in [DVec3::ZERO, G] {
-        let scene = Scene { gravity, ..gas(1000, 3, 1.0) };
+        let scene = changed(&gas(1000, 3, 1.0), |draft| draft.gravity = gravity);
         let mut run = Simulation::new(&scene, EXACT);
         while run.tallies().impacts < 100_000 {
             run.advance(Until::Frame, u64::MAX);

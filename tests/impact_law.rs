@@ -8,7 +8,7 @@ mod support;
 use carom::physics::{Class, ContactLaw, Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, scene, sphere, wall};
+use support::{ELASTIC, G, changed, scene, sphere, wall};
 
 /// One rounding, relative.
 const EPS: f64 = f64::EPSILON;
@@ -339,17 +339,17 @@ fn swept_rubs_as_many_bounces_as_it_does_not_see() {
 
 /// A scene in other units: lengths times `length`, times times `time`.
 fn in_units(scene: &Scene, length: f64, time: f64) -> Scene {
-    let mut other = scene.clone();
-    other.gravity *= length / (time * time);
-    other.contact.rest_speed *= length / time;
-    for wall in &mut other.walls {
-        (wall.shape.center, wall.shape.s1, wall.shape.s2) =
-            (wall.shape.center * length, wall.shape.s1 * length, wall.shape.s2 * length);
-    }
-    for body in &mut other.spheres {
-        (body.x, body.v, body.radius) = (body.x * length, body.v * (length / time), body.radius * length);
-    }
-    other
+    changed(scene, |other| {
+        other.gravity *= length / (time * time);
+        other.contact.rest_speed *= length / time;
+        for wall in &mut other.walls {
+            (wall.shape.center, wall.shape.s1, wall.shape.s2) =
+                (wall.shape.center * length, wall.shape.s1 * length, wall.shape.s2 * length);
+        }
+        for body in &mut other.spheres {
+            (body.x, body.v, body.radius) = (body.x * length, body.v * (length / time), body.radius * length);
+        }
+    })
 }
 
 /// Scenes with bounces, chains, rests, edges and slides, and how long each is followed, s.

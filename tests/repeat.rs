@@ -3,9 +3,9 @@
 mod support;
 
 use carom::measure::verify::{Depth, GOLDEN, Golden, Lab};
-use carom::physics::{Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::physics::{Method, Progress, Settings, Simulation, State, Until};
 use proptest::{prelude::*, test_runner::RngSeed};
-use support::{gas, paper, paper_scene, run_to};
+use support::{gas, moved, paper, paper_scene, run_to};
 
 /// How far the scenes are run, s: past the first rests, and in scenes 2 and 4 short of their stalls.
 const UNTIL: [f64; 5] = [12.0, 8.0, 10.0, 8.0, 7.4];
@@ -19,15 +19,6 @@ fn whole(k: usize) -> State {
     let mut run = start(k);
     assert_eq!(run_to(&mut run, UNTIL[k], u64::MAX), None);
     run.state()
-}
-
-/// The scene as it stands, to be continued from.
-fn frozen(scene: &Scene, state: &State) -> Scene {
-    let mut scene = scene.clone();
-    for (body, (x, v)) in scene.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
-        (body.x, body.v) = (*x, *v);
-    }
-    scene
 }
 
 #[test]
@@ -93,7 +84,7 @@ fn a_run_continues_from_time_positions_velocities_and_pending_impulses_alone() {
         for stop in [0.0, 0.23, 1.36, 3.0, 5.0, 7.0] {
             run_to(&mut run, stop, u64::MAX);
             let mut again =
-                Simulation::resumed(&frozen(&scene, &run.state()), run.settings(), run.time(), &run.transient());
+                Simulation::resumed(&moved(&scene, &run.state()), run.settings(), run.time(), &run.transient());
             assert_eq!(again.state(), run.state());
             run_to(&mut again, until, u64::MAX);
             assert_eq!(again.state().hash(), whole(k).hash(), "scene {k} from {stop} s");

@@ -6,7 +6,7 @@ use carom::physics::model::Face;
 use carom::physics::overlap::{pair_touch, wall_touch};
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Simulation, Until, describe};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, paper, run_to, scene, sphere, wall};
+use support::{ELASTIC, G, PAPER_LAW, changed, paper, run_to, scene, sphere, wall};
 
 /// A floor of 20 m × 20 m at y = 0.
 fn floor() -> carom::scene::Wall {
@@ -175,8 +175,8 @@ fn a_wall_turns_the_normal_velocity_to_minus_four_fifths_and_takes_one_percent_o
 
 #[test]
 fn walls_may_have_a_restitution_of_their_own() {
-    let mut scene = on_floor(DVec3::ZERO, dvec3(0.0, -2.0, 0.0));
-    scene.contact.wall_restitution = 0.5;
+    let floor = on_floor(DVec3::ZERO, dvec3(0.0, -2.0, 0.0));
+    let scene = changed(&floor, |draft| draft.contact.wall_restitution = 0.5);
     assert_close(after_one_frame(&scene)[0], DVec3::Y);
 }
 

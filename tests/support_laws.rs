@@ -4,6 +4,7 @@
 //! themselves, and energy.
 
 use carom::physics::support::{Bodies, Fate, Held, Resting, Row, Solver, Surface, hold, islands, solve};
+use carom::random::SplitMix64;
 use glam::DVec3;
 
 const G: DVec3 = DVec3::new(0.0, -9.8, 0.0);
@@ -306,20 +307,12 @@ fn a_row_of_three_hundred_spheres_in_a_groove_is_swept_and_says_so() {
     assert!(held.acceleration.vectors.iter().all(|a| *a == DVec3::ZERO));
 }
 
-/// SplitMix64, the generator of the scene files.
-struct Random(u64);
+/// The random numbers that a problem is made of.
+struct Random(SplitMix64);
 
 impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In [0, 1).
     fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.unit()
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -337,7 +330,7 @@ impl Random {
 
 /// A random problem: 1–12 bodies, up to 30 contacts, some of them repeated, masses over `decades` decades.
 fn random_problem(seed: u64, decades: i32) -> (Vec<f64>, Vec<DVec3>, Vec<Row>) {
-    let mut random = Random(seed);
+    let mut random = Random(SplitMix64::new(seed));
     let count = 1 + random.below(12);
     let mass = |random: &mut Random| 10_f64.powf((random.unit() - 0.5) * f64::from(decades));
     let inverse_mass: Vec<f64> = (0..count).map(|_| mass(&mut random)).collect();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Current;
+use super::current::Current;
 use crate::{
     snapshot::{Ghost, Stage, Trade},
     view,
@@ -11,7 +11,7 @@ use crate::{
 
 /// A comparison under way.
 pub(super) struct Comparison {
-    /// Whose runs are compared: the last reports of another scene may still be on their way.
+    /// The scene whose runs are compared: the last reports of another one may still be on their way.
     stage: Arc<Stage>,
     beside: Beside,
     ghost: Arc<Option<Ghost>>,

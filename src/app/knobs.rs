@@ -1,6 +1,6 @@
 //! The values that keys turn: tolerance, dt, speed. Bounded, and free of rounding noise after many turns.
 
-use crate::physics::{Method, Settings};
+use crate::scene::{Method, Settings};
 
 /// Finest and coarsest tolerance the keys reach, dimensionless: the resolution of f64, and the degree at which a
 /// sphere's centre lies on the wall (larger values count as this).

@@ -5,7 +5,6 @@ use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue};
 
-use super::output;
 use crate::printable;
 
 /// Exit code of a command that could not do its work.
@@ -84,9 +83,14 @@ fn explain(mut error: clap::Error) -> ExitCode {
     };
     match printed {
         // Wrong usage stays wrong usage, whether or not anybody can read what was wrong.
-        Err(broken) if !error.use_stderr() => Failure::from(output::cannot_write("standard output", &broken)).report(),
+        Err(broken) if !error.use_stderr() => Failure::from(cannot_write("standard output", &broken)).report(),
         _ => code,
     }
+}
+
+/// Keeps the kind, by which a closed pipe is told from a failure.
+pub(super) fn cannot_write(name: &str, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("cannot write {name}: {}", printable::cause(error)))
 }
 
 /// What clap would quote from the command line, if it is not printable as it is. Its own styles are another variant.

@@ -8,14 +8,13 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::arguments::Measure;
 use super::failure::{Failure, note};
-use super::output::{Output, Target};
-use super::place::refuse_shared;
+use super::output::Output;
 use super::signals::Signals;
+use super::target::{Target, refuse_shared};
 use crate::export::{Format, Table, TradeRow, read_trade};
 use crate::measure::{self, Advance, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
-use crate::physics::Method;
 use crate::printable;
-use crate::scene::{self, Opened};
+use crate::scene::{self, Method, Opened};
 
 /// Steps of the progress bar: finer than any terminal shows.
 const STEPS: f64 = 1000.0;

@@ -8,7 +8,8 @@
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
 //! | `judge` | what watches and judges a run of `carom run` |
-//! | `place` | which file a word leads to, and that no output destroys another or an input |
+//! | `place` | which file a word leads to |
+//! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
@@ -32,6 +33,7 @@ mod rows;
 mod run;
 mod show;
 mod signals;
+mod target;
 mod verify;
 
 use std::ffi::OsString;

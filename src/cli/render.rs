@@ -12,14 +12,11 @@ use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
 use crate::audit::Watch;
-use crate::physics::{Class, Progress, Simulation, Stall, State, Until};
+use crate::physics::{Class, Progress, Simulation, Stall, State};
 use crate::scene::{self, Opened, Settings};
 use crate::snapshot::{Snapshot, Stage, Ticks};
 use crate::view::{self, Look, Mode, Pace, Popup, Screen};
 use crate::{app, frame};
-
-/// Units of work between two looks at signals: some milliseconds. No bit of a frame depends on it.
-const SLICE: u64 = 20_000;
 
 pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failure> {
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
@@ -50,20 +47,25 @@ struct Shown {
 fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Result<Shown, Failure> {
     let mut simulation = Simulation::new(&opened.scene, settings);
     simulation.record_events(true);
-    let (mut ticks, mut stall) = (Ticks::new(opened.scene.duration), None);
-    let mut impacts = count(&mut simulation, at, &mut ticks);
+    let (mut ticks, mut impacts) = (Ticks::new(opened.scene.duration), 0);
     let mut watch = Watch::new(&simulation);
-    let slice = SLICE.min(watch.slice(simulation.model()));
-    while simulation.time() < at && stall.is_none() {
-        if let Progress::Stalled(why) = simulation.advance(Until::Time(at), slice) {
-            stall = Some(why);
+    let slice = Simulation::SLICE.min(watch.slice(simulation.model()));
+    let mut look = |run: &mut Simulation| {
+        if run.time() <= at {
+            watch.look(run, true);
         }
-        if simulation.time() <= at {
-            watch.look(&simulation, true);
-        }
-        impacts += count(&mut simulation, at, &mut ticks);
-        signals.check()?;
+        impacts += count(run, at, &mut ticks);
+        signals.check()
+    };
+    let (mut end, mut looked) = (Progress::Reached, Ok(()));
+    if simulation.time() < at {
+        end = simulation.run_to(at, |run| {
+            looked = look(run);
+            looked.is_ok().then_some(slice)
+        });
     }
+    looked.and_then(|()| look(&mut simulation))?;
+    let stall = if let Progress::Stalled(stall) = end { Some(stall) } else { None };
     let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
     let whole = Snapshot::of(&stage, &simulation, stall.as_ref());
     let shown = cut(whole, &simulation, at, impacts);

@@ -2,7 +2,7 @@
 
 use super::arguments::Run;
 use super::failure::{Failure, note};
-use crate::printable;
+use crate::format;
 use crate::scene::Scene;
 
 /// So many rows of states are written without a question, some ten gigabytes of CSV.
@@ -18,7 +18,7 @@ pub(super) fn refuse_too_many(arguments: &Run, scene: &Scene, until: f64) -> Res
     if rows <= MANY {
         return Ok(());
     }
-    let (rows, step) = (printable::count(rows), printable::number(every));
+    let (rows, step) = (format::amount(rows), format::number(every));
     if !arguments.yes {
         return Err(Failure::Usage(format!(
             "--every {step} asks for {rows} rows of states; add --yes if that is meant"

@@ -8,16 +8,13 @@ use super::accuracy;
 use super::arguments::Run;
 use super::failure::{Failure, note};
 use super::judge::Jury;
-use super::output::{Output, Target};
-use super::place::refuse_shared;
+use super::output::Output;
 use super::rows::refuse_too_many;
 use super::signals::Signals;
+use super::target::{Target, refuse_shared};
 use crate::export::{EventRow, Format, Row, StateRow, Table};
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 use crate::scene;
-
-/// Units of work between two looks at signals and progress: some milliseconds. No bit of a result depends on it.
-pub(super) const SLICE: u64 = 20_000;
 
 /// Steps of the progress bar: finer than any terminal shows.
 const STEPS: f64 = 1000.0;

@@ -2,13 +2,14 @@
 
 use super::clock::{Deadline, Watch};
 use super::cost::cost;
+use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::reference::Reference;
-use super::report::{duration, plain, setting, short};
+use super::report::setting;
 use super::trade::errors;
 use super::walk::{Budget, Cut};
-use super::{GoOn, Interrupted};
-use crate::physics::{Method, Scene, Settings};
+use crate::format;
+use crate::scene::{Method, Scene, Settings};
 
 /// Seconds on the wall that trying settings may take.
 const PATIENCE: f64 = 4.0;
@@ -76,7 +77,7 @@ pub fn choose(
         return Err(Miss::Nothing(format!("no accuracy can be measured here: {reason}")));
     }
     if reference.meaningful() < TELLING * until {
-        let (meaningful, until) = (short(reference.meaningful(), 1), plain(until));
+        let (meaningful, until) = (format::digits(reference.meaningful(), 1), format::time(until));
         return Err(Miss::Nothing(format!(
             "no accuracy can be measured here: positions mean something only up to {meaningful} s of {until} s"
         )));
@@ -137,7 +138,7 @@ fn nothing(wanted: f64, methods: &[Method], reference: &Reference, cut_short: bo
         "no setting of {} was found{time} that meets a position error of {wanted:e} m up to {} s; carom measure shows \
          what there is",
         names.join(", "),
-        plain(reference.meaningful()),
+        format::time(reference.meaningful()),
     )
 }
 
@@ -150,17 +151,17 @@ impl Choice {
             format!(
                 "; next is {}, {} per s, error {} m",
                 in_words(&next),
-                duration(next.cpu_per_s),
-                short(next.error, 1)
+                format::duration(next.cpu_per_s),
+                format::digits(next.error, 1)
             )
         });
         let hasty = if self.cut_short { "; not all settings were tried" } else { "" };
         format!(
             "chose {}: {} per simulated s, position error {} m up to {} s{next}{hasty}",
             in_words(&self.chosen),
-            duration(cpu_per_s),
-            short(error, 1),
-            plain(self.compared),
+            format::duration(cpu_per_s),
+            format::digits(error, 1),
+            format::time(self.compared),
         )
     }
 }

@@ -1,9 +1,10 @@
 //! What a setting costs: processor time of its thread per simulated second, the best of several runs.
 
 use super::clock::{Passed, Watch, resolution};
+use super::interrupt::{GoOn, Interrupted};
 use super::walk::run_through;
-use super::{GoOn, Interrupted};
-use crate::physics::{Scene, Settings, Simulation};
+use crate::physics::Simulation;
+use crate::scene::{Scene, Settings};
 
 /// One timing lasts at least so long, s: shorter runs are repeated, so that the clock's own cost is lost in them.
 const SHORTEST: f64 = 2e-3;

@@ -4,7 +4,8 @@ use super::deviation::Deviation;
 use super::horizon::{GROWTH, RUNS, displaced, displacement};
 use super::reference::settings;
 use super::walk::Instants;
-use crate::physics::{Progress, Scene, Simulation, Until};
+use crate::physics::{Progress, Simulation, Until};
+use crate::scene::Scene;
 
 /// More spheres than this get one displaced run instead of eight: there is memory for two runs, and in a crowd each
 /// displacement grows alike.

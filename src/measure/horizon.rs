@@ -3,14 +3,16 @@
 
 use std::ops::ControlFlow;
 
-use glam::{DVec3, dvec3};
+use glam::DVec3;
 
 use super::deviation::Deviation;
-use super::reference::Reference;
+use super::interrupt::{GoOn, Interrupted};
+use super::reference::{Horizon, Reference};
 use super::walk::{Budget, Cut, walk};
-use super::{GoOn, Interrupted};
 use crate::geometry::Parallelogram;
-use crate::physics::{Scene, Simulation};
+use crate::physics::Simulation;
+use crate::random::SplitMix64;
+use crate::scene::{Scene, Wall};
 
 /// How many displaced runs are tried; the worst counts.
 pub(super) const RUNS: u64 = 8;
@@ -26,22 +28,6 @@ pub(super) const GROWTH: f64 = 1e6;
 
 /// A gap up to so many displacements is touched: a displacement toward that wall would push into it.
 const TOUCH: f64 = 4.0;
-
-/// Up to when a reference means something.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Horizon {
-    /// The time at which the worst displaced run has grown by 1e6, s; none if none has up to the reference's end.
-    pub time: Option<f64>,
-    /// The largest growth of a displacement up to there, dimensionless.
-    pub growth: f64,
-}
-
-impl Horizon {
-    /// Nothing is known yet.
-    pub(super) fn unknown() -> Horizon {
-        Horizon { time: None, growth: 1.0 }
-    }
-}
 
 /// The horizon of a reference's scene: the worst of 8 runs by the reference's own method, each sphere displaced along
 /// a seeded unit vector, away from the walls it touches. Resolution: the reference's instants.
@@ -92,16 +78,15 @@ pub(super) fn displacement(scene: &Scene) -> f64 {
 
 /// The scene with every sphere `length` m aside.
 pub(super) fn displaced(scene: &Scene, seed: u64, length: f64) -> Scene {
-    let mut random = Random(seed);
-    let mut aside = scene.clone();
-    for sphere in &mut aside.spheres {
-        let mut way = random.unit_vector();
-        for wall in &scene.walls {
-            way = away(way, &wall.shape, sphere.x, sphere.radius + TOUCH * length);
-        }
-        sphere.x += way * length;
-    }
-    aside
+    let mut random = SplitMix64::new(seed);
+    let aside = scene.spheres.iter().map(|sphere| {
+        let reach = sphere.radius + TOUCH * length;
+        let turned = |way, wall: &Wall| away(way, &wall.shape, sphere.x, reach);
+        sphere.x + scene.walls.iter().fold(random.unit_vector(), turned) * length
+    });
+    let aside: Vec<DVec3> = aside.collect();
+    let v: Vec<DVec3> = scene.spheres.iter().map(|sphere| sphere.v).collect();
+    scene.moved(&aside, &v).expect("a displacement of some ulp keeps a coordinate finite")
 }
 
 /// The direction, turned back where it points into a wall whose closest point is within `reach` (m) of `x`.
@@ -116,31 +101,6 @@ fn away(way: DVec3, wall: &Parallelogram, x: DVec3, reach: f64) -> DVec3 {
     way - normal * (2.0 * toward)
 }
 
-/// SplitMix64: the same directions everywhere.
-struct Random(u64);
-
-impl Random {
-    /// In [−1, 1).
-    fn centered(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    /// Evenly over the sphere: points of the cube until one lies in the ball.
-    fn unit_vector(&mut self) -> DVec3 {
-        loop {
-            let point = dvec3(self.centered(), self.centered(), self.centered());
-            let length = point.length();
-            if (0.1..=1.0).contains(&length) {
-                return point / length;
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -152,13 +112,5 @@ mod tests {
             assert_eq!(away(way, &floor, DVec3::Y * 0.5, 0.5 + 4e-12), turned);
             assert_eq!(away(way, &floor, DVec3::Y * 0.6, 0.5 + 4e-12), way, "a wall out of reach");
         }
-    }
-
-    #[test]
-    fn directions_are_unit_vectors_and_repeat() {
-        let directions = || [0; 9].map(|_| Random(7).unit_vector());
-        assert_eq!(directions(), directions());
-        // Division by the length rounds each coordinate once: 3 half units in the last place.
-        assert!(directions().iter().all(|way| (way.length() - 1.0).abs() < 4e-16));
     }
 }

@@ -1,7 +1,8 @@
 //! Which settings are tried: methods × dt × tolerance, a knob that a method lacks tried once.
 
 use super::reference;
-use crate::physics::{Effect, Knobs, Method, Settings, knobs};
+use crate::physics::{Effect, Knobs, knobs};
+use crate::scene::{Method, Settings};
 
 /// Steps tried unless told otherwise, s.
 pub const DT: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];

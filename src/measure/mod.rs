@@ -18,8 +18,11 @@
 //! | file | owns |
 //! |---|---|
 //! | `walk` | a run read at fixed instants |
-//! | `reference`, `horizon`, `growth` | the yardstick, and until when it holds |
+//! | `interrupt` | how what takes long is told to stop |
+//! | `reference` | a run kept at fixed instants, for others to be compared with |
+//! | `yardstick`, `horizon`, `growth` | the reference of a scene, and until when it holds |
 //! | `deviation` | how far one run is from another |
+//! | `slices` | how much work fits between two looks at whether to go on |
 //! | `clock`, `cost` | processor time; the only clocks |
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
@@ -37,15 +40,18 @@ mod figure;
 mod front;
 mod growth;
 mod horizon;
+mod interrupt;
 mod ladder;
 mod reference;
 mod report;
 mod scale;
 mod shard;
+mod slices;
 mod sweep;
 mod trade;
 pub mod verify;
 mod walk;
+mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
 pub use clock::thread_cpu;
@@ -54,18 +60,12 @@ pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
 pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
-pub use horizon::Horizon;
+pub use interrupt::{GoOn, Interrupted};
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
-pub use reference::Reference;
+pub use reference::{Horizon, Reference};
 pub use report::report;
 pub use shard::{Placed, Shard, merge};
+pub use slices::Slices;
 pub use sweep::{Advance, Measured, Sweep, Yardstick};
 pub use trade::{Errors, Subject, errors};
 pub use walk::{Budget, Cut, Impact, Instants, Walk, walk};
-
-/// Asked every few milliseconds whether to go on; from several threads at once.
-pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
-
-/// A [`GoOn`] said no: there is no result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Interrupted;

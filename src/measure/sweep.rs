@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::cost::cost;
+use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::shard::Shard;
 use super::trade::Subject;
-use super::{GoOn, Interrupted};
 use crate::export::TradeRow;
-use crate::physics::{Method, Scene};
+use crate::scene::{Method, Scene};
 
 /// Weight of a run that takes no steps, in steps: events, set-up and timing.
 const EVENTFUL: f64 = 2e3;

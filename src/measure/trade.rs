@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 
 use super::cost::{Cost, cost};
 use super::deviation::{Deviation, common_impacts, impact_time_error};
+use super::interrupt::{GoOn, Interrupted};
 use super::ladder::Rung;
 use super::reference::Reference;
-use super::report::decimal;
 use super::walk::{Budget, Cut, Instants, Walk, walk};
-use super::{GoOn, Interrupted};
-use crate::export::TradeRow;
-use crate::physics::{Method, Scene, Settings, Simulation};
+use crate::export::{Note, TradeRow};
+use crate::format;
+use crate::physics::Simulation;
+use crate::scene::{Method, Scene, Settings};
 
 /// A horizon below this part of the run is short: most of the run cannot be judged by positions.
 const SHORT: f64 = 0.5;
@@ -115,7 +116,7 @@ impl Subject {
         let settings = rung.settings(until);
         let errors = errors(&self.scene, settings, &self.reference, f64::INFINITY, go_on)?;
         let cost = cost(&self.scene, settings, errors.end, go_on)?;
-        let doubts = self.doubts(&errors, &cost);
+        let note = self.note(&errors, &cost);
         Ok(TradeRow {
             scene: self.key.clone(),
             method: rung.method.name().into(),
@@ -132,22 +133,19 @@ impl Subject {
             evaluations: errors.walk.tallies.evaluations,
             cpu_per_s: Some(cost.cpu_per_s).filter(|cost| cost.is_finite()), // of a run that stalls at its start
             cpu_spread: cost.spread,
-            note: doubts.join("; "),
+            note,
         })
     }
 
     /// What speaks against the figures of a run, a phrase each: first what repeats, then what the clock says.
-    fn doubts(&self, errors: &Errors, cost: &Cost) -> Vec<String> {
+    fn note(&self, errors: &Errors, cost: &Cost) -> Note {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
+        let stalled = errors.walk.cut.as_ref().map(|cut| match cut {
+            Cut::Stalled(stall) => format!("{} s ({})", format::seconds(stall.time), stall.kind),
+            Cut::Spent | Cut::Enough => format!("{} s (passes its budget)", format::seconds(errors.end)),
+        });
         let mut doubts = Vec::new();
-        match &errors.walk.cut {
-            Some(Cut::Stalled(stall)) => doubts.push(format!("{STALLED} {} s ({})", decimal(stall.time), stall.kind)),
-            Some(Cut::Spent | Cut::Enough) => {
-                doubts.push(format!("{STALLED} {} s (passes its budget)", decimal(errors.end)))
-            }
-            None => {}
-        }
         if !doubt.is_empty() {
             doubts.push(doubt.clone());
         }
@@ -161,9 +159,6 @@ impl Subject {
             doubts.push("lacks one of the first impacts".into());
         }
         doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
-        doubts
+        Note { stalled, doubts }
     }
 }
-
-/// How the note of a run that did not reach the end begins.
-pub(super) const STALLED: &str = "stalled at";

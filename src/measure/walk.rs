@@ -3,14 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::clock::Watch;
-use super::{GoOn, Interrupted};
+use super::interrupt::{GoOn, Interrupted};
+use super::slices::Slices;
 use crate::physics::contact::Key;
-use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies, Until};
-
-/// Units of work in the first slice; from there on a slice is doubled or halved to last about [`SLICE`]. A unit is a
-/// degree evaluation or an event, and one event that settles a heap takes longer than a thousand in flight. No bit of a
-/// run depends on where slices end.
-const FIRST: u64 = 256;
+use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 
 /// A slice of work lasts about so long, s: that soon an interrupt is noticed.
 const SLICE: f64 = 2e-3;
@@ -139,9 +135,9 @@ pub(super) fn run_through(simulation: &mut Simulation, until: f64, go_on: GoOn) 
     Pace::new(Budget::UNLIMITED).reach(simulation, until, go_on).map(|cut| cut.is_none())
 }
 
-/// Work in slices that are neither so long that nobody could interrupt nor so short that asking takes the time.
+/// Work in slices that are neither so long that an interrupt waits nor so short that asking takes the time.
 struct Pace {
-    slice: u64,
+    slices: Slices,
     spent: u64,
     budget: Budget,
     since: Watch,
@@ -149,31 +145,33 @@ struct Pace {
 
 impl Pace {
     fn new(budget: Budget) -> Pace {
-        Pace { slice: FIRST, spent: 0, budget, since: Watch::start() }
+        Pace { slices: Slices::of(SLICE), spent: 0, budget, since: Watch::start() }
     }
 
     /// Advances until a frame holds `time` (s); says so if it cannot.
     fn reach(&mut self, simulation: &mut Simulation, time: f64, go_on: GoOn) -> Result<Option<Cut>, Interrupted> {
-        loop {
-            if !go_on() {
-                return Err(Interrupted);
+        let (mut interrupted, mut before) = (false, None);
+        let end = simulation.run_to(time, |run| {
+            let now = self.since.wall();
+            if let Some(before) = before.replace(now) {
+                self.spent += self.slices.work();
+                self.slices.learn(now - before);
             }
-            // Slices that are not used up count by their frames: of `exact`, one an event.
-            if self.spent.max(simulation.tallies().frames) > self.budget.work {
-                return Ok(Some(Cut::Spent));
-            }
-            let before = self.since.wall();
-            match simulation.advance(Until::Time(time), self.slice) {
-                Progress::Reached => return Ok(None),
-                Progress::Stalled(stall) => return Ok(Some(Cut::Stalled(stall))),
-                Progress::Yielded => self.spent += self.slice,
-            }
-            if self.budget.cpu.is_finite() && self.since.cpu() > self.budget.cpu {
-                return Ok(Some(Cut::Spent));
-            }
-            let quick = self.since.wall() - before < SLICE;
-            self.slice = if quick { self.slice * 2 } else { (self.slice / 2).max(1) };
+            interrupted = !go_on();
+            (!interrupted && !self.is_spent(run)).then_some(self.slices.work())
+        });
+        match end {
+            _ if interrupted => Err(Interrupted),
+            Progress::Reached => Ok(None),
+            Progress::Stalled(stall) => Ok(Some(Cut::Stalled(stall))),
+            Progress::Yielded => Ok(Some(Cut::Spent)),
         }
+    }
+
+    fn is_spent(&self, run: &Simulation) -> bool {
+        // Slices that are not used up count by their frames: of `exact`, one an event.
+        let work = self.spent.max(run.tallies().frames);
+        work > self.budget.work || self.budget.cpu.is_finite() && self.since.cpu() > self.budget.cpu
     }
 }
 

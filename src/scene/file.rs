@@ -3,10 +3,10 @@
 use serde::Deserialize;
 use serde_path_to_error::Segment;
 
-use super::error::{Error, Source, quote};
+use super::error::{Error, QUOTE, Source, quote};
 use super::locate::{Position, Step, locate, position, rest_at};
 use super::number::{Amount, Count, Fraction, Interval, NotNegative, Positive, Rgb, Text, Vector, method};
-use super::{Method, error::QUOTE};
+use super::validated::Method;
 use crate::printable::shortened;
 
 /// A scene file.

@@ -1,5 +1,6 @@
 //! The one window into a run: plain public data, complete enough to draw a frame from, and to build by hand in a test.
 
+mod bins;
 mod ghost;
 mod ticks;
 mod trend;
@@ -14,8 +15,9 @@ pub use trend::{Trade, Trend};
 pub use crate::audit::Alarm;
 use crate::geometry::Bounds;
 pub use crate::physics::{Class, Contact, Kind, Probe, Tallies};
-use crate::physics::{Scene, Simulation, Stall, State};
+use crate::physics::{Simulation, Stall, State};
 use crate::printable;
+use crate::scene::Scene;
 
 /// What does not change during a run; built once per scene.
 #[derive(Debug, Clone, PartialEq)]

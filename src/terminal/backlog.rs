@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, AtomicUsize, Ordering},
 };
 
-use super::{Event, Post};
+use super::event::{Event, Post};
 use crate::app::{Input, Key};
 
 /// More keys and pastes do not wait: nobody types as far ahead.

@@ -7,7 +7,10 @@
 
 use std::time::Duration;
 
-use super::{paste::Paste, sequence};
+use super::{
+    paste::{CTRL_C, Paste},
+    sequence,
+};
 use crate::app::{Code, Input, Key};
 
 /// A paste that does not go on for this long is over.
@@ -23,7 +26,6 @@ const REST: Duration = Duration::from_secs(1);
 const PARAMETERS: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
-pub(super) const CTRL_C: u8 = 0x03;
 const CANCEL: u8 = 0x18;
 const SUBSTITUTE: u8 = 0x1a;
 const BELL: u8 = 0x07;

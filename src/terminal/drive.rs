@@ -15,10 +15,11 @@ use rustix::termios::isatty;
 use signal_hook::consts::SIGHUP;
 
 use super::{
-    Error, Event, Options, Outcome, Post,
     backlog::{Backlog, backlog},
     detect::Environment,
+    event::{Event, Post},
     input,
+    outcome::{Error, Options, Outcome},
     pacer::{Next, Pacer},
     session::{Guard, Session},
     signals,

@@ -31,7 +31,7 @@ use rustix::{
 };
 use signal_hook::consts::SIGCONT;
 
-use super::{Event, Post};
+use super::event::{Event, Post};
 
 /// A terminal that takes nothing for this long while we leave is left as it is: nobody may have to wait for it.
 const FAREWELL: Duration = Duration::from_millis(150);

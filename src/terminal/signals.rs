@@ -8,7 +8,10 @@ use signal_hook::{
     iterator::Signals,
 };
 
-use super::{Event, Post, session::Session};
+use super::{
+    event::{Event, Post},
+    session::Session,
+};
 
 /// Time to leave in good order after a signal to end; then the process ends as it is.
 const GRACE: Duration = Duration::from_millis(500);

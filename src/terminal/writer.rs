@@ -8,7 +8,10 @@ use std::{
     thread,
 };
 
-use super::{Event, Post, session::Session};
+use super::{
+    event::{Event, Post},
+    session::Session,
+};
 
 /// The sending end: one picture on its way at a time.
 pub(super) struct Writer {

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Look, Views};
+use super::screen::{Look, Views};
 
 /// Columns from which on a third column holds the inspector.
 const WIDE: u16 = 110;

@@ -4,10 +4,11 @@ use glam::DVec3;
 
 use super::{
     canvas::{Ink, Layer},
-    numbers, shapes,
+    pane::View,
+    shapes,
     sheet::Sheet,
-    stage::View,
 };
+use crate::format;
 use crate::snapshot::Class;
 
 /// Length of a contact normal seen from the side, dots: three cells high, whatever the zoom.
@@ -46,7 +47,7 @@ pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
     let squares = view.screen.snapshot.v.iter().map(|v| v.length_squared()).filter(|square| square.is_finite());
     let fastest = squares.fold(0.0, f64::max).sqrt();
     let seconds = view.camera.span(view.area).x * 0.2 / fastest;
-    (seconds.is_finite() && seconds > 0.0).then(|| numbers::round_down(seconds))
+    (seconds.is_finite() && seconds > 0.0).then(|| format::round_down(seconds))
 }
 
 fn draw_velocities(view: &mut View, sheet: &Sheet) {

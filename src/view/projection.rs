@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ratatui::layout::Rect;
 
-use super::{Look, layout::Side};
+use super::{layout::Side, screen::Look};
 use crate::snapshot::Stage;
 
 /// Dots kept free around the scene's view box at zoom 1, so that its walls are seen and the views do not touch.

@@ -10,9 +10,9 @@ use ratatui::{
 };
 
 use super::{
-    Look, Marker,
     glyphs::{Glyphs, glyphs},
     palette::Palette,
+    screen::{Look, Marker},
 };
 
 /// The buffer with what every strip of the screen needs to write on it.

@@ -3,11 +3,11 @@
 use ratatui::layout::Rect;
 
 use super::{
-    Beside, Screen,
     layout::{split_left, split_right, split_top},
-    numbers,
+    screen::{Beside, Screen},
     sheet::Sheet,
 };
+use crate::format;
 use crate::snapshot::{Ghost, Trend};
 
 /// Columns for a quantity's name, value and unit.
@@ -66,9 +66,9 @@ fn draw_heading(screen: &Screen, beside: &Beside, row: Rect, sheet: &mut Sheet) 
         return;
     }
     let snapshot = screen.snapshot;
-    let t = numbers::clock(ghost.t, snapshot.stage.duration.max(ghost.t), snapshot.dt);
+    let t = format::clock(ghost.t, snapshot.stage.duration.max(ghost.t), snapshot.dt);
     let behind = match snapshot.t - ghost.t {
-        lag if lag > 0.0 => format!("  {} s behind", numbers::decimal(lag, 5, 2).trim_start()),
+        lag if lag > 0.0 => format!("  {} s behind", format::decimal(lag, 5, 2).trim_start()),
         _ => String::new(),
     };
     let pieces =
@@ -96,15 +96,15 @@ fn offset(screen: &Screen, ghost: &Ghost) -> String {
 
 /// In the error's place: positions mean nothing any more.
 fn draw_past(horizon: f64, row: Rect, sheet: &mut Sheet) {
-    let text = format!("past this scene's horizon of {} s: positions mean nothing", numbers::short(horizon));
+    let text = format!("past this scene's horizon of {} s: positions mean nothing", format::setting(horizon));
     sheet.put_all(row, &[(" error    ", sheet.palette.faint()), (&text, sheet.palette.notice())]);
 }
 
 fn draw_quantity((name, unit, trend, scale): &Row, row: Rect, sheet: &mut Sheet) {
     let (faint, plain) = (sheet.palette.faint(), sheet.palette.plain());
     let show = |value: f64| match scale {
-        Scale::Log => numbers::scientific(value, 10),
-        Scale::Linear => numbers::decimal(value, 10, 1),
+        Scale::Log => format::scientific(value, 10),
+        Scale::Linear => format::decimal(value, 10, 1),
     };
     let value = trend.last.map_or_else(|| format!("{:>10}", "-"), show);
     sheet.put_all(row, &[(&format!(" {name:<8}"), faint), (&value, plain), (&format!(" {unit}"), faint)]);
@@ -124,7 +124,7 @@ fn draw_quantity((name, unit, trend, scale): &Row, row: Rect, sheet: &mut Sheet)
     if range.width == RANGE {
         let show = |value: f64| match scale {
             Scale::Log => format!("{value:.0e}"),
-            Scale::Linear => numbers::short(value),
+            Scale::Linear => format::setting(value),
         };
         let ends = format!("{} {} {} ", show(least), sheet.glyphs.ellipsis, show(most));
         sheet.put_right(range, &ends, faint);

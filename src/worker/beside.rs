@@ -12,19 +12,16 @@ use std::{
 };
 
 use super::{
-    Notify,
     mailbox::{Reader, Sender, mailbox},
+    message::Notify,
     slot::Slot,
 };
 use crate::{
     measure::Growth,
-    physics::{Method, Progress, Settings, Simulation, Until},
-    scene::Scene,
+    physics::{Progress, Simulation},
+    scene::{Method, Scene, Settings},
     snapshot::{Ghost, Snapshot},
 };
-
-/// Work between two looks at what has arrived: some milliseconds. No bit of a result depends on it.
-const SLICE: u64 = 10_000;
 
 /// The exact run of a scene, seen from the run that is measured by it. Dropping it ends its thread.
 pub struct Beside {
@@ -111,16 +108,21 @@ impl Follower {
         if target.t < self.exact.time() - self.exact.step() {
             self.exact = begin(&self.scene);
         }
-        let mut stall = None;
-        while self.exact.time() < target.t && stall.is_none() {
-            if let Progress::Stalled(reason) = self.exact.advance(Until::Time(target.t), SLICE) {
-                stall = Some(reason.reason);
-            }
-            self.listen()?;
-            if self.next.as_ref().is_some_and(|next| next.t < target.t) {
-                return Some(()); // the run has begun again
-            }
+        let mut end = Progress::Reached;
+        if self.exact.time() < target.t {
+            let Follower { exact, inbox, next, .. } = self;
+            end = exact.run_to(target.t, |_| {
+                if let Some(snapshot) = inbox.look().ok()? {
+                    *next = Some(snapshot);
+                }
+                (!is_before(next, target.t)).then_some(Simulation::SLICE)
+            });
         }
+        self.listen()?;
+        if is_before(&self.next, target.t) {
+            return Some(()); // the run has begun again
+        }
+        let stall = if let Progress::Stalled(stall) = end { Some(stall.reason) } else { None };
         self.ghost = Some(self.compare(&target, stall));
         slot.put(self.ghost.clone());
         Some(())
@@ -132,7 +134,7 @@ impl Follower {
             self.next = Some(self.inbox.wait().ok()?);
             return Some(());
         };
-        self.growth.advance(SLICE);
+        self.growth.advance(Simulation::SLICE);
         if self.growth.horizon().is_some() {
             ghost.horizon = self.growth.horizon();
             slot.put(self.ghost.clone());
@@ -162,6 +164,11 @@ impl Follower {
             stall,
         }
     }
+}
+
+/// Whether there is a snapshot of an earlier time than `t`, s.
+fn is_before(snapshot: &Option<Arc<Snapshot>>, t: f64) -> bool {
+    snapshot.as_ref().is_some_and(|snapshot| snapshot.t < t)
 }
 
 /// The exact run from the start; dt only sets its frames, which need not be more than its events.

@@ -7,8 +7,8 @@ use std::{
 };
 
 use super::{
-    Notify,
     mailbox::{Sender, mailbox},
+    message::Notify,
 };
 
 /// The thread, seen from who asks. Dropping it ends the thread after the errand under way.

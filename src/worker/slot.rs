@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use super::Notify;
+use super::message::Notify;
 
 /// Holds the latest piece of news; the writer never waits for the reader.
 pub(super) struct Slot<T> {

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use carom::random::SplitMix64;
 use carom::{
     geometry::{Bounds, Parallelogram},
     snapshot::{Alarm, Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
@@ -238,15 +239,10 @@ pub(crate) fn stalled() -> Scene {
     scene
 }
 
-/// Many spheres of three sizes on a jittered grid: positions by SplitMix64, the same everywhere.
+/// Many spheres of three sizes on a jittered grid: positions the same everywhere.
 pub(crate) fn gas(count: usize) -> Scene {
-    let mut state = 7_u64;
-    let mut uniform = move || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = SplitMix64::new(7);
+    let mut uniform = move || random.unit();
     let mut place = || dvec3(-4.7 + 9.4 * uniform(), 0.3 + 9.4 * uniform(), -2.2 + 4.4 * uniform());
     let spheres: Vec<_> = (0..count).map(|_| (place(), place() * 0.2)).collect();
     let mut scene = scene("gas", &spheres);

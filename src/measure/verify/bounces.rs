@@ -3,8 +3,10 @@
 use glam::DVec3;
 
 use super::bodies::{G, exact, floor, scene, smooth, sphere};
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Class, ContactLaw};
+use super::check::Check;
+use super::lab::{Lab, Row, Trouble};
+use crate::physics::Class;
+use crate::scene::ContactLaw;
 
 /// Height of the drop, m: the fall lasts a second.
 const HEIGHT: f64 = 4.9;
@@ -35,7 +37,7 @@ fn rubbed(lab: &Lab) -> Result<Vec<Row>, Trouble> {
     let row = |e: f64| {
         let ball = sphere(DVec3::Y * (RADIUS + HEIGHT), DVec3::X * SLIP, RADIUS);
         let law = ContactLaw { tangential: TANGENTIAL, ..smooth(e) };
-        let mut run = exact(&scene(DVec3::Y * -G, law, vec![floor()], vec![ball]));
+        let mut run = exact(&scene(DVec3::Y * -G, law, vec![floor()], vec![ball])?);
         let fall = (2.0 * HEIGHT / G).sqrt();
         let state = lab.go(&mut run, fall * (1.0 + e) / (1.0 - e) + 1.0)?;
         let kept = e * TANGENTIAL;
@@ -51,7 +53,7 @@ fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 
 fn all_bounces(lab: &Lab, e: f64) -> Result<Row, Trouble> {
     let ball = sphere(DVec3::Y * (RADIUS + HEIGHT), DVec3::ZERO, RADIUS);
-    let mut run = exact(&scene(DVec3::Y * -G, smooth(e), vec![floor()], vec![ball]));
+    let mut run = exact(&scene(DVec3::Y * -G, smooth(e), vec![floor()], vec![ball])?);
     let expected = (2.0 * HEIGHT / G).sqrt() * (1.0 + e) / (1.0 - e);
     lab.go(&mut run, expected + 1.0)?;
     let rest = run.take_events().into_iter().find(|event| event.class == Class::Rest);

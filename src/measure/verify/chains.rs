@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::bodies::{ELASTIC, exact, scene, smooth, sphere, wall};
-use super::{Check, Lab, Row, Trouble};
+use super::check::Check;
+use super::lab::{Lab, Row, Trouble};
 use crate::physics::State;
 use crate::scene::Sphere;
 
@@ -43,7 +44,7 @@ fn digits(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 fn count(lab: &Lab, k: i32) -> Result<Row, Trouble> {
     let stop = wall(DVec3::ZERO, DVec3::Y * 4.0, DVec3::Z * 4.0);
     let balls = vec![ball(2.0, 0.0, 1.0), ball(4.0, -1.0, 100_f64.powi(k))];
-    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, vec![stop], balls));
+    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, vec![stop], balls)?);
     run.record_events(false);
     // After a second of approach and the turn, no impact is left a hundred seconds on.
     lab.go(&mut run, 100.0)?;
@@ -55,7 +56,7 @@ fn squeeze(lab: &Lab) -> Result<Vec<Row>, Trouble> {
     let row = |(e, heavy): (f64, f64)| {
         let stop = wall(DVec3::ZERO, DVec3::Y * 10.0, DVec3::Z * 10.0);
         let balls = vec![ball(0.5, 0.0, 1.0), ball(4.0, -1.0, heavy)];
-        let state = lab.go(&mut exact(&scene(DVec3::ZERO, smooth(e), vec![stop], balls)), 4.0)?;
+        let state = lab.go(&mut exact(&scene(DVec3::ZERO, smooth(e), vec![stop], balls)?), 4.0)?;
         Ok(Row::new(format!("heavy out, e = {e}"), "m/s", [blow_by_blow(e, heavy), state.v[1].x], 1e-11))
     };
     [(0.99999, 1e7), (0.999, 1e4)].into_iter().map(row).collect()
@@ -86,7 +87,7 @@ fn cradle(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 
 fn swing(lab: &Lab, incoming: usize) -> Result<Row, Trouble> {
     let swung = |k: usize| if k < incoming { ball(k as f64 - 5.0, SPEED, 1.0) } else { ball(k as f64, 0.0, 1.0) };
-    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, Vec::new(), (0..BALLS).map(swung).collect()));
+    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, Vec::new(), (0..BALLS).map(swung).collect())?);
     let state = lab.go(&mut run, 6.0)?;
     Ok(Row::new(format!("cradle, balls out for {incoming} in"), "", [incoming as f64, leaving(&state)], 0.0))
 }

@@ -1,9 +1,10 @@
 //! Haff's law: how a gas that loses energy at impacts cools while it is homogeneous.
 
 use super::bodies::ELASTIC;
+use super::check::Check;
 use super::gas::{Gas, SIGMA, continued, gas};
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::ContactLaw;
+use super::lab::{Lab, Row, Trouble};
+use crate::scene::ContactLaw;
 
 pub(super) const CHECK: Check = Check {
     title: "Haff's law",
@@ -29,7 +30,7 @@ fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
     let rate = 2.0 * before / (elastic.count * window);
     let tau = 6.0 / ((1.0 - E * E) * rate);
 
-    let lossy = continued(&scene, &state, ContactLaw { restitution: E, ..ELASTIC });
+    let lossy = continued(&scene, &state, ContactLaw { restitution: E, ..ELASTIC })?;
     let mut gas = Gas::new(lab, &lossy);
     gas.run.record_events(true);
     let first = gas.temperature();

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::bodies::EXACT;
-use super::{Lab, Trouble};
-use crate::physics::{Class, Contact, ContactLaw, Kind, Scene, Simulation, State};
-use crate::scene;
+use super::lab::{Lab, Trouble};
+use crate::physics::{Class, Contact, Kind, Simulation, State};
+use crate::scene::{self, ContactLaw, Scene};
 
 /// Radius of every sphere, m.
 pub(super) const RADIUS: f64 = 0.1;
@@ -29,7 +29,7 @@ pub(super) fn gas(packing: f64, count: usize, masses: &[f64]) -> Result<Scene, T
         "Scene(contact: (restitution: 1, tangential: 1, rest_speed: 0), walls: [Room({corners})], spheres: [{}])",
         parts.join(", ")
     );
-    scene::parse(&text, "gas").map_err(|error| Trouble::Failed(error.to_string()))
+    Ok(scene::parse(&text, "gas")?)
 }
 
 /// Edge of the cube, m; in millimetres, so that a machine's own cube root does not show.
@@ -38,12 +38,11 @@ pub(super) fn side(packing: f64, count: usize) -> f64 {
 }
 
 /// The scene at another moment, under another law of contact.
-pub(super) fn continued(scene: &Scene, state: &State, contact: ContactLaw) -> Scene {
-    let mut scene = Scene { contact, ..scene.clone() };
-    for (body, (x, v)) in scene.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
-        (body.x, body.v) = (*x, *v);
-    }
-    scene
+///
+/// # Errors
+/// If that breaks a rule of scenes.
+pub(super) fn continued(scene: &Scene, state: &State, contact: ContactLaw) -> Result<Scene, Trouble> {
+    Ok(scene.changed(|draft| draft.contact = contact)?.moved(&state.x, &state.v)?)
 }
 
 /// A gas under way.

@@ -1,8 +1,9 @@
 //! Golden hashes: the bits that every build on every machine makes.
 
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Method, Settings, Simulation};
-use crate::scene;
+use super::check::Check;
+use super::lab::{Lab, Row, Trouble};
+use crate::physics::Simulation;
+use crate::scene::{self, Method, Settings};
 
 /// A run and the hash of its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +64,7 @@ impl Golden {
     /// # Errors
     /// If the scene is not known or the run stalls: a full sentence.
     pub fn found(&self, lab: &Lab) -> Result<u64, Trouble> {
-        let opened = scene::open(self.scene).map_err(|error| Trouble::Failed(error.to_string()))?;
+        let opened = scene::open(self.scene)?;
         let settings = Settings { method: self.method, dt: 0.01, tolerance: 1e-3 };
         Ok(lab.go(&mut Simulation::new(&opened.scene, settings), self.until)?.hash())
     }

@@ -2,11 +2,9 @@
 
 use std::fmt;
 
-use crate::measure::{GoOn, Interrupted};
-use crate::physics::{Progress, Simulation, State, Until};
-
-/// Units of work between two looks at whether to go on: some milliseconds. No bit of a result depends on it.
-const SLICE: u64 = 20_000;
+use crate::measure::interrupt::{GoOn, Interrupted};
+use crate::physics::{Progress, Simulation, State};
+use crate::scene;
 
 /// Slices after which a run counts as one that never ends: ten times what the longest one here needs.
 const MOST_SLICES: u64 = 2_000;
@@ -68,6 +66,12 @@ impl From<Interrupted> for Trouble {
     }
 }
 
+impl From<scene::Error> for Trouble {
+    fn from(error: scene::Error) -> Trouble {
+        Trouble::Failed(error.to_string())
+    }
+}
+
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -109,17 +113,22 @@ impl<'a> Lab<'a> {
     /// # Errors
     /// If the run stalls or never gets there, or it is not to go on.
     pub(super) fn go(&self, run: &mut Simulation, until: f64) -> Result<State, Trouble> {
-        for _ in 0..MOST_SLICES {
-            if !(self.go_on)() {
-                return Err(Interrupted.into());
-            }
-            match run.advance(Until::Time(until), SLICE) {
-                Progress::Reached => return Ok(run.at(until)),
-                Progress::Yielded => {}
-                Progress::Stalled(stall) => return Err(Trouble::Failed(stall.reason)),
+        let (mut slices, mut interrupted) = (0, false);
+        let end = run.run_to(until, |_| {
+            interrupted = !(self.go_on)();
+            slices += 1;
+            (!interrupted && slices <= MOST_SLICES).then_some(Simulation::SLICE)
+        });
+        match end {
+            Progress::Reached => Ok(run.at(until)),
+            Progress::Stalled(stall) => Err(Trouble::Failed(stall.reason)),
+            Progress::Yielded if interrupted => Err(Interrupted.into()),
+            Progress::Yielded => {
+                let (now, work) = (run.time(), Simulation::SLICE * MOST_SLICES);
+                let sentence =
+                    format!("After {work} units of work the run is still at {now} s on its way to {until} s.");
+                Err(Trouble::Failed(sentence))
             }
         }
-        let (now, work) = (run.time(), SLICE * MOST_SLICES);
-        Err(Trouble::Failed(format!("After {work} units of work the run is still at {now} s on its way to {until} s.")))
     }
 }

@@ -1,8 +1,9 @@
 //! Equipartition: heavy and light spheres come to the same mean energy.
 
+use super::check::Check;
 use super::gas::{Gas, SIGMA, gas};
+use super::lab::{Lab, Row, Trouble};
 use super::statistics::mean;
-use super::{Check, Lab, Row, Trouble};
 use crate::physics::State;
 
 pub(super) const CHECK: Check = Check {

@@ -5,6 +5,7 @@
 //!
 //! | file | owns |
 //! |---|---|
+//! | `check` | a family of results, and what became of it |
 //! | `lab` | how thoroughly, how a run is advanced, what a row is |
 //! | `bodies` | scenes built in code |
 //! | `statistics` | means, standard errors, slopes |
@@ -14,6 +15,7 @@
 mod bodies;
 mod bounces;
 mod chains;
+mod check;
 mod cooling;
 mod gas;
 mod golden;
@@ -31,20 +33,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
+pub use check::{Check, Outcome};
 pub use golden::{GOLDEN, Golden};
 pub use lab::{Depth, Lab, Row, Trouble};
-
-/// A family of known results that are measured together.
-#[derive(Debug, Clone, Copy)]
-pub struct Check {
-    /// What it is about, in two or three words.
-    pub title: &'static str,
-    /// What is expected, and who says so.
-    pub source: &'static str,
-    /// Why an error of that size is allowed.
-    pub allowed: &'static str,
-    measure: fn(&Lab) -> Result<Vec<Row>, Trouble>,
-}
 
 /// Every family, in the order in which they are told.
 pub const CHECKS: &[Check] = &[
@@ -66,19 +57,6 @@ pub const CHECKS: &[Check] = &[
     joints::FUNNEL,
     golden::CHECK,
 ];
-
-impl Check {
-    /// Measures its rows; never empty.
-    ///
-    /// # Errors
-    /// If a run stalls, or the lab is not to go on.
-    pub fn rows(&self, lab: &Lab) -> Result<Vec<Row>, Trouble> {
-        (self.measure)(lab)
-    }
-}
-
-/// What became of a check: its place in [`CHECKS`], and its rows or why there are none.
-pub type Outcome = (usize, Result<Vec<Row>, Trouble>);
 
 /// Measures every check on so many threads, and tells each outcome as soon as it is there, in any order.
 pub fn verify(lab: Lab, threads: usize, mut tell: impl FnMut(Outcome)) {

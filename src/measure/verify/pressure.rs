@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::check::Check;
 use super::gas::{Gas, SIGMA, gas, side};
-use super::{Check, Lab, Row, Trouble};
+use super::lab::{Lab, Row, Trouble};
 
 pub(super) const CHECK: Check = Check {
     title: "hard spheres",

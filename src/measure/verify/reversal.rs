@@ -1,10 +1,11 @@
 //! Time reversal: what loses nothing finds back to where it began.
 
 use super::bodies::{ELASTIC, EXACT};
+use super::check::Check;
 use super::gas::continued;
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Scene, Simulation, State};
-use crate::scene;
+use super::lab::{Lab, Row, Trouble};
+use crate::physics::{Simulation, State};
+use crate::scene::{self, Scene};
 
 pub(super) const CHECK: Check = Check {
     title: "time reversal",
@@ -30,11 +31,11 @@ fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 }
 
 fn returned(lab: &Lab, name: &str) -> Result<Row, Trouble> {
-    let opened = scene::open(name).map_err(|error| Trouble::Failed(error.to_string()))?;
-    let forth = Scene { contact: ELASTIC, ..opened.scene };
+    let opened = scene::open(name)?;
+    let forth = opened.scene.changed(|draft| draft.contact = ELASTIC)?;
     let (mut turned, impacts) = end(lab, &forth)?;
     turned.v.iter_mut().for_each(|v| *v = -*v);
-    let (back, _) = end(lab, &continued(&forth, &turned, ELASTIC))?;
+    let (back, _) = end(lab, &continued(&forth, &turned, ELASTIC)?)?;
     let start = Simulation::new(&forth, EXACT).state();
 
     let allowed = ROUNDING * 2.0 * (impacts + 1.0) * GROWTH;

@@ -3,9 +3,11 @@
 use glam::DVec3;
 
 use super::bodies::{ELASTIC, G, floor, scene, sphere, wall};
+use super::check::Check;
+use super::lab::{Lab, Row, Trouble};
 use super::statistics::slope;
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Method, Settings, Simulation};
+use crate::physics::Simulation;
+use crate::scene::{Method, Settings};
 
 pub(super) const DT: Check = Check {
     title: "order in dt",
@@ -45,7 +47,7 @@ fn order_in_dt(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 fn drop_ladder(lab: &Lab, method: Method) -> Result<Vec<Row>, Trouble> {
     let (mut points, mut last) = (Vec::new(), f64::NAN);
     for dt in LADDER {
-        let falling = scene(DVec3::Y * -G, ELASTIC, Vec::new(), vec![sphere(DVec3::ZERO, DVec3::ZERO, 0.5)]);
+        let falling = scene(DVec3::Y * -G, ELASTIC, Vec::new(), vec![sphere(DVec3::ZERO, DVec3::ZERO, 0.5)])?;
         let state = lab.go(&mut Simulation::new(&falling, Settings { method, dt, tolerance: 1e-3 }), FALL)?;
         last = (state.x[0].y + 0.5 * G * FALL * FALL).abs();
         points.push((dt.ln(), last.ln()));
@@ -75,7 +77,7 @@ fn order_in_tolerance(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 /// How far swept is off after a drop from `h` (m) and as much time again, m.
 fn late(lab: &Lab, h: f64, tolerance: f64) -> Result<f64, Trouble> {
     let ball = sphere(DVec3::Y * (0.5 + h), DVec3::ZERO, 0.5);
-    let dropped = scene(DVec3::Y * -G, ELASTIC, vec![floor()], vec![ball]);
+    let dropped = scene(DVec3::Y * -G, ELASTIC, vec![floor()], vec![ball])?;
     let settings = Settings { method: Method::Swept, dt: 0.1, tolerance };
     let fall = (2.0 * h / G).sqrt();
     // Elastic: half a fall after the impact it is back at 3/4 of the height.
@@ -109,7 +111,7 @@ fn missed(lab: &Lab, method: Method, v: f64, phases: u32) -> Result<f64, Trouble
     for phase in 0..phases {
         let x = -10.0 - v * STEP * (f64::from(phase) + 0.5) / f64::from(phases);
         let ball = sphere(DVec3::X * x, DVec3::X * v, RADIUS);
-        let flight = scene(DVec3::ZERO, ELASTIC, vec![target.clone()], vec![ball]);
+        let flight = scene(DVec3::ZERO, ELASTIC, vec![target.clone()], vec![ball])?;
         let state = lab.go(&mut Simulation::new(&flight, Settings { method, dt: STEP, tolerance: 1e-3 }), 1.0)?;
         through += u32::from(state.v[0].x > 0.0);
     }

@@ -1,0 +1,28 @@
+//! A family of known results, and what became of it.
+
+use super::lab::{Lab, Row, Trouble};
+
+/// A family of known results that are measured together.
+#[derive(Debug, Clone, Copy)]
+pub struct Check {
+    /// What it is about, in two or three words.
+    pub title: &'static str,
+    /// What is expected, and who says so.
+    pub source: &'static str,
+    /// Why an error of that size is allowed.
+    pub allowed: &'static str,
+    pub(super) measure: fn(&Lab) -> Result<Vec<Row>, Trouble>,
+}
+
+impl Check {
+    /// Measures its rows; never empty.
+    ///
+    /// # Errors
+    /// If a run stalls, or the lab is not to go on.
+    pub fn rows(&self, lab: &Lab) -> Result<Vec<Row>, Trouble> {
+        (self.measure)(lab)
+    }
+}
+
+/// What became of a check: its place in [`CHECKS`], and its rows or why there are none.
+pub type Outcome = (usize, Result<Vec<Row>, Trouble>);
