@@ -44,7 +44,7 @@ pub fn escaped(text: &str) -> String {
     })
 }
 
-/// The same, cut after about `limit` characters.
+/// The text with everything that is not printable spelled out, cut after about `limit` characters.
 pub fn shortened(text: &str, limit: usize) -> String {
     let mut shown = String::new();
     let mut used = 0;

@@ -262,10 +262,10 @@ fn the_list_opens_scenes_and_brackets_go_through_it() {
 fn another_scene_keeps_how_it_is_drawn_and_forgets_where_one_looked() {
     let mut user = User::with("paper-2");
     user.type_in("vdizhf.");
-    let before = user.app.look().clone();
+    let before = user.app.view_settings().clone();
     assert!(before.follow && before.views == Views::Side && before.selected == Some(0));
     user.type_in("]");
-    let after = user.app.look();
+    let after = user.app.view_settings();
     assert_eq!((after.marker, after.colors, after.views), (before.marker, before.colors, before.views));
     assert_eq!((after.overlays, after.inspector), (before.overlays, before.inspector));
     assert_eq!((after.zoom, after.follow, after.selected), (1.0, false, None));

@@ -6,7 +6,7 @@ use carom::{
     physics::{Simulation, Until},
     scene,
     snapshot::{Snapshot, Stage},
-    worker::Beside,
+    worker::ExactFollower,
 };
 
 /// As many snapshots as a run sends in a quarter of an hour.
@@ -20,7 +20,7 @@ fn an_exact_run_that_falls_behind_holds_three_snapshots_at_most() {
     let _ = run.advance(Until::Frame, u64::MAX);
     // The exact run has a long way to go to this moment, and each snapshot sends it there anew.
     let far = Snapshot { t: 1e6, ..Snapshot::of(&stage, &run, None) };
-    let beside = Beside::start(scene, None, Arc::new(|| {})).expect("a thread");
+    let beside = ExactFollower::start(scene, None, Arc::new(|| {})).expect("a thread");
     let mut sent: Vec<Weak<Snapshot>> = Vec::new();
     for _ in 0..MANY {
         let snapshot = Arc::new(far.clone());
@@ -42,13 +42,13 @@ fn an_exact_run_asked_for_and_given_up_again_and_again_begins_once_at_a_time() {
         let notify = Arc::new(move || {
             let _ = told.send(());
         });
-        before = Some(Beside::start(Arc::clone(&scene), before, notify).expect("a thread").end());
+        before = Some(ExactFollower::start(Arc::clone(&scene), before, notify).expect("a thread").end());
     }
     let told_last = told.clone();
     let notify = Arc::new(move || {
         let _ = told_last.send(());
     });
-    let last = Beside::start(Arc::clone(&scene), before, notify).expect("a thread");
+    let last = ExactFollower::start(Arc::clone(&scene), before, notify).expect("a thread");
     let stage = Arc::new(Stage::of("paper-2", &scene));
     last.compare(&Arc::new(Snapshot::of(&stage, &Simulation::new(&scene, scene.solver), None)));
     // None of the others has a snapshot to compare with: only the last tells anything, after all of them have ended.

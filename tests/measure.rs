@@ -71,7 +71,7 @@ fn the_impact_time_error_of_a_drop_is_the_one_computed_by_hand() {
     let error = found.impact_time.expect("one impact each");
     // Found at a depth of up to 1.1e-4 · 0.5 m, at 9 m/s.
     assert!((error - (0.1 - h)).abs() < 1e-5, "{error}, by hand {}", 0.1 - h);
-    assert_eq!((found.common, found.walk.impacts.len()), (1, 1));
+    assert_eq!((found.common, found.run.impacts.len()), (1, 1));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod support;
 
-use carom::measure::verify::{Depth, GOLDEN, Golden, Lab};
+use carom::measure::verify::{Depth, GOLDEN, Golden, Runner};
 use carom::physics::{Method, Progress, Settings, Simulation, State, Until};
 use proptest::{prelude::*, test_runner::RngSeed};
 use support::{gas, moved, paper, paper_scene, run_to};
@@ -147,8 +147,8 @@ fn thousands_of_spheres_are_sliced_within_a_trial_step_too() {
 
 #[test]
 fn every_build_makes_these_bits() {
-    let lab = Lab::new(Depth::Quick, &|| true);
-    let found = GOLDEN.iter().map(|run| Golden { hash: run.found(&lab).expect("a run that ends"), ..*run });
+    let runner = Runner::new(Depth::Quick, &|| true);
+    let found = GOLDEN.iter().map(|run| Golden { hash: run.found(&runner).expect("a run that ends"), ..*run });
     let found: Vec<Golden> = found.collect();
     let line = |run: &Golden| {
         let Golden { scene, until, method, hash } = run;

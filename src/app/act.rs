@@ -4,10 +4,11 @@ use super::{
     action::{Action, Direction},
     input::Effect,
     keys::{self, Code, Key, pairs},
-    knobs, look,
+    knobs,
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
     state::{Open, State},
+    view_settings,
 };
 use crate::{
     printable,
@@ -22,7 +23,7 @@ const PROMPT: usize = 200;
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         self.message = None;
-        // These work whatever is open and whoever is typing.
+        // These work whatever is open and is being typed into.
         if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
             keys::action(key).filter(|_| key.ctrl)
         {
@@ -47,7 +48,7 @@ impl State {
                 Outcome::NotMine => return self.act_on(key),
             },
             Open::Help { scroll } => {
-                let limit = view::help_scroll_limit(&pairs(&self.help), &self.look, self.area);
+                let limit = view::help_scroll_limit(&pairs(&self.help), &self.view_settings, self.area);
                 match scrolled(key, *scroll, limit, self.area.height.into()) {
                     Some(next) => *scroll = next,
                     None => return self.act_on(key),
@@ -107,11 +108,11 @@ impl State {
             Action::Help => self.toggle_help(),
             Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
             Action::Close => self.close(),
-            Action::NextViews => look::next_views(&mut self.look),
+            Action::NextViews => view_settings::next_views(&mut self.view_settings),
             Action::Pan(direction) => self.pan(direction),
-            Action::ZoomIn => self.zoom(look::ZOOM, "This is the closest view."),
-            Action::ZoomOut => self.zoom(1.0 / look::ZOOM, "This is the widest view."),
-            Action::WholeScene => look::whole_scene(&mut self.look),
+            Action::ZoomIn => self.zoom(view_settings::ZOOM, "This is the closest view."),
+            Action::ZoomOut => self.zoom(1.0 / view_settings::ZOOM, "This is the widest view."),
+            Action::WholeScene => view_settings::whole_scene(&mut self.view_settings),
             Action::Follow => self.follow(),
             Action::SelectNext => self.select(true),
             Action::SelectPrevious => self.select(false),
@@ -134,13 +135,13 @@ impl State {
 
     /// Magnifies by `factor`, or says `at_the_end` where it is already at the end.
     fn zoom(&mut self, factor: f64, at_the_end: &str) {
-        if !look::zoom(&mut self.look, factor) {
+        if !view_settings::zoom(&mut self.view_settings, factor) {
             self.say(at_the_end);
         }
     }
 
     fn next_overlays(&mut self) {
-        let said = look::next_overlays(&mut self.look);
+        let said = view_settings::next_overlays(&mut self.view_settings);
         self.say(said);
     }
 
@@ -177,7 +178,7 @@ impl State {
                 self.compare();
             }
         }
-        self.look.ghost = self.comparison.is_some();
+        self.view_settings.ghost = self.comparison.is_some();
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
@@ -202,45 +203,49 @@ impl State {
 
     fn pan(&mut self, direction: Direction) {
         self.let_go();
-        let span = view::visible_span(&self.look, &self.report.snapshot.stage, self.area);
-        look::pan(&mut self.look, direction, span);
+        let span = view::visible_span(&self.view_settings, &self.report.snapshot.stage, self.area);
+        view_settings::pan(&mut self.view_settings, direction, span);
     }
 
     fn let_go(&mut self) {
-        let x = self.look.selected.and_then(|i| self.report.snapshot.x.get(i));
-        look::let_go(&mut self.look, &self.report.snapshot.stage.view, x.copied());
+        let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i));
+        view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x.copied());
     }
 
     fn follow(&mut self) {
-        if self.look.follow {
+        if self.view_settings.follow {
             self.let_go();
             return self.say("The view stays where it is.");
         }
-        if self.look.selected.is_none() {
+        if self.view_settings.selected.is_none() {
             self.select(true);
         }
-        if let Some(i) = self.look.selected {
-            self.look.follow = true;
-            self.look.pan = glam::DVec3::ZERO;
+        if let Some(i) = self.view_settings.selected {
+            self.view_settings.follow = true;
+            self.view_settings.pan = glam::DVec3::ZERO;
             self.say(format!("The view follows sphere {i}."));
         }
     }
 
     fn select(&mut self, forward: bool) {
-        let x = self.look.selected.and_then(|i| self.report.snapshot.x.get(i)).copied();
-        let followed = self.look.follow;
-        look::select(&mut self.look, self.current.scene.spheres.len(), forward);
+        let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i)).copied();
+        let followed = self.view_settings.follow;
+        view_settings::select(&mut self.view_settings, self.current.scene.spheres.len(), forward);
         if self.current.scene.spheres.is_empty() {
             self.say("This scene has no spheres.");
-        } else if followed && self.look.selected.is_none() {
-            self.look.follow = true;
-            look::let_go(&mut self.look, &self.report.snapshot.stage.view, x);
+        } else if followed && self.view_settings.selected.is_none() {
+            self.view_settings.follow = true;
+            view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x);
         }
     }
 
     fn toggle_inspector(&mut self) {
-        self.look.inspector = !self.look.inspector;
-        self.say(if self.look.inspector { "Inspector on." } else { "Inspector off, where the screen has no room." });
+        self.view_settings.inspector = !self.view_settings.inspector;
+        self.say(if self.view_settings.inspector {
+            "Inspector on."
+        } else {
+            "Inspector off, where the screen has no room."
+        });
     }
 
     fn order(&mut self, text: &str) {

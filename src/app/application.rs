@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     snapshot::Ghost,
-    view::{self, Look, Mode, Pace, Popup, Screen},
+    view::{self, Mode, Pace, Popup, Screen, ViewSettings},
     worker::{Activity, Notify, Report},
 };
 
@@ -72,8 +72,8 @@ impl App {
     }
 
     /// What the user chose to look at.
-    pub fn look(&self) -> &Look {
-        &self.state.look
+    pub fn view_settings(&self) -> &ViewSettings {
+        &self.state.view_settings
     }
 
     /// Takes the scene on its way if it has come, and the worker's latest report.
@@ -117,8 +117,8 @@ impl App {
             snapshot: &self.state.report.snapshot,
             pace: pace(&self.state.report),
             ticks: &self.state.report.ticks,
-            beside: self.state.comparison.as_ref().map(Comparison::shown),
-            look: &self.state.look,
+            comparison: self.state.comparison.as_ref().map(Comparison::shown),
+            view_settings: &self.state.view_settings,
             popup: match &self.state.open {
                 Open::Nothing => Popup::None,
                 Open::Prompt(text) => Popup::Prompt { text },

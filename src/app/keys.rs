@@ -96,7 +96,7 @@ pub struct Binding {
     pub keys: &'static [Key],
     /// What they do.
     pub action: Action,
-    /// The same, for the help.
+    /// What they do, in words for the help.
     pub does: &'static str,
     /// A word for the hint line, if it has a place there.
     pub hint: Option<&'static str>,

@@ -23,11 +23,11 @@ mod input;
 mod keys;
 mod knobs;
 mod loading;
-mod look;
 mod opening;
 mod prompt;
 mod scene_list;
 mod state;
+mod view_settings;
 
 pub use action::{Action, Direction};
 pub use application::App;

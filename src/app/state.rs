@@ -10,13 +10,13 @@ use super::{
     input::Setup,
     keys::{help_rows, hints},
     loading::Loading,
-    look,
     scene_list::{self, SceneList},
+    view_settings,
 };
 use crate::{
     printable,
     scene::{self, Settings},
-    view::{Colors, Look, Marker},
+    view::{Colors, Marker, ViewSettings},
     worker::{Activity, Command, Ending, Errands, Notify, Report, Worker},
 };
 
@@ -53,7 +53,7 @@ pub(super) struct State {
     pub(super) loading: Option<Loading>,
     pub(super) errands: Option<Errands>,
     pub(super) notify: Notify,
-    pub(super) look: Look,
+    pub(super) view_settings: ViewSettings,
     pub(super) open: Open,
     pub(super) message: Option<String>,
     /// Size of the last picture.
@@ -88,7 +88,7 @@ impl State {
             loading: None,
             errands: None,
             notify,
-            look: first_look(setup.marker, setup.colors),
+            view_settings: first_view_settings(setup.marker, setup.colors),
             open: Open::Nothing,
             message: None,
             area: Rect::default(),
@@ -135,8 +135,8 @@ impl State {
         self.settings = settings;
         self.worker.send(Command::Load(self.current.job(settings)));
         self.run(running);
-        look::whole_scene(&mut self.look);
-        self.look.selected = None;
+        view_settings::whole_scene(&mut self.view_settings);
+        self.view_settings.selected = None;
         if self.comparison.is_some() {
             self.compare();
         }
@@ -181,6 +181,6 @@ impl State {
 }
 
 /// Both views, the whole scene, nothing selected.
-fn first_look(marker: Marker, colors: Colors) -> Look {
-    Look { marker, colors, ..Look::default() }
+fn first_view_settings(marker: Marker, colors: Colors) -> ViewSettings {
+    ViewSettings { marker, colors, ..ViewSettings::default() }
 }

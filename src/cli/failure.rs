@@ -27,7 +27,7 @@ pub(super) enum Failure {
     Told,
     /// The options are each right, but not together: one full sentence.
     Usage(String),
-    /// Whoever read our output has gone.
+    /// The reader of our output has gone.
     ClosedPipe,
     /// A signal of this number.
     Signal(u8),
@@ -61,7 +61,7 @@ fn say(sentence: &str, code: u8) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// One line on stderr. If nobody can read it, the exit code still tells.
+/// One line on stderr. If it cannot be read, the exit code still tells.
 pub(super) fn note(sentence: &str) {
     let _ = writeln!(io::stderr(), "carom: {}", printable::escaped(sentence));
 }
@@ -82,7 +82,7 @@ fn explain(mut error: clap::Error) -> ExitCode {
         false => plain.lines().try_for_each(|line| writeln!(io::stderr(), "{}", printable::escaped(line))),
     };
     match printed {
-        // Wrong usage stays wrong usage, whether or not anybody can read what was wrong.
+        // Wrong usage stays wrong usage, whether or not the message can be read.
         Err(broken) if !error.use_stderr() => Failure::from(cannot_write("standard output", &broken)).report(),
         _ => code,
     }

@@ -15,7 +15,7 @@ use crate::audit::Watch;
 use crate::physics::{Class, Progress, Simulation, Stall, State};
 use crate::scene::{self, Opened, Settings};
 use crate::snapshot::{Snapshot, Stage, Ticks};
-use crate::view::{self, Look, Mode, Pace, Popup, Screen};
+use crate::view::{self, Mode, Pace, Popup, Screen, ViewSettings};
 use crate::{app, frame};
 
 pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failure> {
@@ -25,7 +25,7 @@ pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failur
     let endless = scene::endless(&opened.scene, settings, arguments.at);
     endless.iter().for_each(|warning| note(&format!("{}: {warning}", opened.key)));
     let shown = reach(&opened, settings, arguments.at, signals)?;
-    let buffer = draw(&shown, &look(&arguments.display), arguments.size);
+    let buffer = draw(&shown, &view_settings(&arguments.display), arguments.size);
     let bytes = match arguments.format {
         Format::Text => frame::text(&buffer),
         Format::Ansi => frame::ansi(&buffer),
@@ -96,16 +96,16 @@ fn cut(whole: Snapshot, simulation: &Simulation, at: f64, impacts: u64) -> Snaps
     cut
 }
 
-fn look(display: &Display) -> Look {
-    let ordinary = Look::default();
-    Look {
+fn view_settings(display: &Display) -> ViewSettings {
+    let ordinary = ViewSettings::default();
+    ViewSettings {
         colors: display.color.depth().unwrap_or(ordinary.colors),
         marker: display.marker.map_or(ordinary.marker, Into::into),
         ..ordinary
     }
 }
 
-fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
+fn draw(shown: &Shown, view_settings: &ViewSettings, (columns, rows): (u16, u16)) -> Buffer {
     let area = Rect::new(0, 0, columns, rows);
     let mut buffer = Buffer::empty(area);
     let mode = if shown.stall.is_some() { Mode::Stalled } else { Mode::Pause };
@@ -115,8 +115,8 @@ fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
         snapshot: &shown.snapshot,
         pace: Pace { mode, wanted: 1.0, reached: None },
         ticks: &shown.ticks,
-        beside: None,
-        look,
+        comparison: None,
+        view_settings,
         popup: Popup::None,
         message: None,
         hints: &hints,

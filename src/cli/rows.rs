@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// So many rows of states are written without a question, some ten gigabytes of CSV.
 const MANY: f64 = 1e8;
 
-/// Refuses more rows than anybody has room for, up to `until` (s), unless they are meant; then says how many come.
+/// Refuses more rows, up to `until` (s), than any disk is meant to take, unless they are wanted; then says how many come.
 ///
 /// # Errors
 /// A sentence with the number, if `--yes` is not given.

@@ -57,7 +57,7 @@ fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failu
     Ok(Some(Table::new::<R>(format, Output::open(target)?)?))
 }
 
-/// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
+/// On stderr; indicatif draws nothing where that is no terminal.
 fn progress_bar() -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !std::io::stderr().is_terminal() {
@@ -143,7 +143,7 @@ impl Recorder<'_> {
             writeln!(out, "{line}")?;
             out.finish()?;
         } else {
-            let _ = writeln!(std::io::stderr(), "{line}"); // if nobody can read it, the exit code still tells
+            let _ = writeln!(std::io::stderr(), "{line}"); // if it cannot be read, the exit code still tells
         }
         unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         self.jury.sentences().iter().for_each(|sentence| note(sentence));

@@ -6,8 +6,8 @@ use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::reference::Reference;
 use super::report::setting;
+use super::sample::{Budget, EndReason};
 use super::trade::errors;
-use super::walk::{Budget, Cut};
 use crate::format;
 use crate::scene::{Method, Scene, Settings};
 
@@ -121,7 +121,7 @@ fn attempt(
     let settings = rung.settings(until);
     let watch = Watch::start();
     let errors = errors(scene, settings, reference, wanted, patient)?;
-    let misses = errors.position.distance > wanted || matches!(errors.walk.cut, Some(Cut::Stalled(_)));
+    let misses = errors.position.distance > wanted || matches!(errors.run.end_reason, Some(EndReason::Stalled(_)));
     if misses {
         return Ok(None);
     }

@@ -2,7 +2,7 @@
 
 use super::clock::{Passed, Watch, resolution};
 use super::interrupt::{GoOn, Interrupted};
-use super::walk::run_through;
+use super::sample::run_through;
 use crate::physics::Simulation;
 use crate::scene::{Scene, Settings};
 

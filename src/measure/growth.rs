@@ -3,7 +3,7 @@
 use super::deviation::Deviation;
 use super::horizon::{GROWTH, RUNS, displaced, displacement};
 use super::reference::settings;
-use super::walk::Instants;
+use super::sample::Instants;
 use crate::physics::{Progress, Simulation, Until};
 use crate::scene::Scene;
 
@@ -52,7 +52,7 @@ impl Growth {
             match run.advance(Until::Time(instant), work) {
                 Progress::Reached => {}
                 Progress::Yielded => there = false,
-                // What one of them cannot follow, nobody can trust.
+                // Beyond the end of one of them, positions cannot be trusted.
                 Progress::Stalled(stall) => self.found = Some(stall.time),
             }
         }

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::deviation::Deviation;
 use super::interrupt::{GoOn, Interrupted};
 use super::reference::{Horizon, Reference};
-use super::walk::{Budget, Cut, walk};
+use super::sample::{Budget, EndReason, sample};
 use crate::geometry::Parallelogram;
 use crate::physics::Simulation;
 use crate::random::SplitMix64;
@@ -55,7 +55,7 @@ fn one(
     let length = displacement(scene);
     let mut simulation = Simulation::new(&displaced(scene, seed, length), reference.settings);
     let mut found = Horizon { time: None, growth: 1.0 };
-    let walked = walk(&mut simulation, reference.instants, budget, go_on, |k, state| {
+    let sampled = sample(&mut simulation, reference.instants, budget, go_on, |k, state| {
         let Some(positions) = reference.positions(k) else { return ControlFlow::Break(()) };
         found.growth = found.growth.max(Deviation::between(&state.x, positions).distance / length);
         if found.growth >= GROWTH {
@@ -64,8 +64,8 @@ fn one(
         let enough = found.time.is_some() || known.is_some_and(|known| state.t >= known);
         if enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
-    if matches!(walked.cut, Some(Cut::Stalled(_) | Cut::Spent)) && walked.end < reference.end {
-        found.time = Some(walked.end); // what displaced spheres cannot follow, nobody can trust
+    if matches!(sampled.end_reason, Some(EndReason::Stalled(_) | EndReason::Spent)) && sampled.end < reference.end {
+        found.time = Some(sampled.end); // beyond the end of a displaced run, positions cannot be trusted
     }
     Ok(found)
 }

@@ -17,7 +17,7 @@ pub struct Ladder {
     pub methods: Vec<Method>,
     /// Longest steps, s; none: [`DT`], of which only the longest where a step changes nothing but the cost.
     pub dt: Option<Vec<f64>>,
-    /// Tolerances, degrees; none: [`TOLERANCES`], likewise.
+    /// Tolerances, degrees; none: [`TOLERANCES`], of which only the coarsest where a tolerance changes nothing but the cost.
     pub tolerances: Option<Vec<f64>>,
 }
 

@@ -5,7 +5,7 @@
 //! thread per simulated second, and the work counted.
 //!
 //! For others to build on:
-//! - [`Deviation::between`] two lists of positions: the largest distance and whose it is. What a live panel shows.
+//! - [`Deviation::between`] two lists of positions: the largest distance and the sphere it is of. What a live panel shows.
 //! - [`Reference::of`] a scene: an `exact` run kept at fixed [`Instants`], its impacts, and its [`Horizon`];
 //!   [`Reference::meaningful`] says until when positions can be compared.
 //! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
@@ -17,7 +17,7 @@
 //!
 //! | file | owns |
 //! |---|---|
-//! | `walk` | a run read at fixed instants |
+//! | `sample` | a run read at fixed instants |
 //! | `interrupt` | how what takes long is told to stop |
 //! | `reference` | a run kept at fixed instants, for others to be compared with |
 //! | `yardstick`, `horizon`, `growth` | the reference of a scene, and until when it holds |
@@ -44,13 +44,13 @@ mod interrupt;
 mod ladder;
 mod reference;
 mod report;
+mod sample;
 mod scale;
 mod shard;
 mod slices;
 mod sweep;
 mod trade;
 pub mod verify;
-mod walk;
 mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
@@ -64,8 +64,8 @@ pub use interrupt::{GoOn, Interrupted};
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
 pub use reference::{Horizon, Reference};
 pub use report::report;
+pub use sample::{Budget, EndReason, Impact, Instants, Sampled, sample};
 pub use shard::{Placed, Shard, merge};
 pub use slices::Slices;
 pub use sweep::{Advance, Measured, Sweep, Yardstick};
 pub use trade::{Errors, Subject, errors};
-pub use walk::{Budget, Cut, Impact, Instants, Walk, walk};

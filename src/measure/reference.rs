@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::interrupt::{GoOn, Interrupted};
-use super::walk::{Budget, Cut, Impact, Instants, walk};
+use super::sample::{Budget, EndReason, Impact, Instants, sample};
 use crate::physics::{Simulation, Tallies};
 use crate::scene::{Method, Scene, Settings};
 
@@ -63,12 +63,12 @@ impl Reference {
         until: f64,
         budget: Budget,
         go_on: GoOn,
-    ) -> Result<(Reference, Option<Cut>), Interrupted> {
+    ) -> Result<(Reference, Option<EndReason>), Interrupted> {
         let mut simulation = Simulation::new(scene, settings);
         let model = simulation.model().clone();
         let instants = Instants::new(until, model.len());
         let (mut positions, mut energies) = (Vec::new(), Vec::new());
-        let walked = walk(&mut simulation, instants, budget, go_on, |_, state| {
+        let sampled = sample(&mut simulation, instants, budget, go_on, |_, state| {
             positions.extend_from_slice(&state.x);
             energies.push(state.energy(&model));
             ControlFlow::Continue(())
@@ -76,16 +76,16 @@ impl Reference {
         let reference = Reference {
             settings,
             instants,
-            end: walked.end,
-            impacts: walked.impacts,
-            tallies: walked.tallies,
+            end: sampled.end,
+            impacts: sampled.impacts,
+            tallies: sampled.tallies,
             horizon: Horizon::unknown(),
             doubt: String::new(),
             positions,
             energies,
             spheres: model.len(),
         };
-        Ok((reference, walked.cut))
+        Ok((reference, sampled.end_reason))
     }
 
     /// Where the spheres are at instant `k`, m by index; none beyond the reference's end.

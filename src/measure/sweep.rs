@@ -49,7 +49,7 @@ pub struct Yardstick {
     pub growth: f64,
 }
 
-/// What a sweep is doing, for whoever waits.
+/// How far a sweep is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
     /// Settings done.

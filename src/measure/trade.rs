@@ -7,7 +7,7 @@ use super::deviation::{Deviation, common_impacts, impact_time_error};
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::Rung;
 use super::reference::Reference;
-use super::walk::{Budget, Cut, Instants, Walk, walk};
+use super::sample::{Budget, EndReason, Instants, Sampled, sample};
 use crate::export::{Note, TradeRow};
 use crate::format;
 use crate::physics::Simulation;
@@ -37,7 +37,7 @@ pub struct Errors {
     /// the end where the reference conserves energy. None if the reference has no energy at all.
     pub energy: Option<f64>,
     /// The run as read.
-    pub walk: Walk,
+    pub run: Sampled,
 }
 
 /// Runs a setting beside a reference, up to the reference's last instant; given up once the deviation exceeds `limit`
@@ -57,7 +57,7 @@ pub fn errors(
     let (meaningful, judged) = (reference.meaningful(), judged(reference));
     let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
     let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
-    let walk = walk(&mut simulation, reference.instants, budget, go_on, |k, state| {
+    let run = sample(&mut simulation, reference.instants, budget, go_on, |k, state| {
         if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
             compared = state.t;
             let now = Deviation::between(&state.x, wanted);
@@ -70,13 +70,13 @@ pub fn errors(
     })?;
     let scale = reference.energy_scale();
     Ok(Errors {
-        end: walk.end,
+        end: run.end,
         position,
         compared,
-        impact_time: impact_time_error(&walk.impacts, &reference.impacts),
-        common: common_impacts(&walk.impacts, &reference.impacts),
+        impact_time: impact_time_error(&run.impacts, &reference.impacts),
+        common: common_impacts(&run.impacts, &reference.impacts),
         energy: (scale > 0.0).then(|| energy / scale),
-        walk,
+        run,
     })
 }
 
@@ -128,9 +128,9 @@ impl Subject {
             impact_time_error: errors.impact_time,
             common_events: errors.common as u64,
             energy_error: errors.energy,
-            deepest_degree: errors.walk.tallies.deepest_degree,
-            impacts: errors.walk.impacts.len() as u64,
-            evaluations: errors.walk.tallies.evaluations,
+            deepest_degree: errors.run.tallies.deepest_degree,
+            impacts: errors.run.impacts.len() as u64,
+            evaluations: errors.run.tallies.evaluations,
             cpu_per_s: Some(cost.cpu_per_s).filter(|cost| cost.is_finite()), // of a run that stalls at its start
             cpu_spread: cost.spread,
             note,
@@ -141,9 +141,9 @@ impl Subject {
     fn note(&self, errors: &Errors, cost: &Cost) -> Note {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
-        let stalled = errors.walk.cut.as_ref().map(|cut| match cut {
-            Cut::Stalled(stall) => format!("{} s ({})", format::seconds(stall.time), stall.kind),
-            Cut::Spent | Cut::Enough => format!("{} s (passes its budget)", format::seconds(errors.end)),
+        let stalled = errors.run.end_reason.as_ref().map(|end_reason| match end_reason {
+            EndReason::Stalled(stall) => format!("{} s ({})", format::seconds(stall.time), stall.kind),
+            EndReason::Spent | EndReason::Enough => format!("{} s (passes its budget)", format::seconds(errors.end)),
         });
         let mut doubts = Vec::new();
         if !doubt.is_empty() {

@@ -3,11 +3,11 @@
 use super::horizon;
 use super::interrupt::{GoOn, Interrupted};
 use super::reference::{Reference, settings};
-use super::walk::{Budget, Cut};
+use super::sample::{Budget, EndReason};
 use crate::format;
 use crate::scene::{Method, Scene, Settings};
 
-/// Who stands in where `exact` can't go on, if there is such a method, and its finest setting: (name, dt in s, tolerance).
+/// The method that stands in where `exact` can't go on, and its finest setting: (name, dt in s, tolerance).
 const STAND_IN: (&str, f64, f64) = ("moreau", 1e-4, 1e-12);
 
 impl Reference {
@@ -17,9 +17,9 @@ impl Reference {
     /// # Errors
     /// If `go_on` says no.
     pub fn of(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
-        let (mut reference, cut) = Reference::by(scene, settings(until), until, budget, go_on)?;
-        if let Some(cut) = cut {
-            reference.doubt = format!("exact {} at {} s", describe(&cut), format::seconds(reference.end));
+        let (mut reference, end_reason) = Reference::by(scene, settings(until), until, budget, go_on)?;
+        if let Some(end_reason) = end_reason {
+            reference.doubt = format!("exact {} at {} s", describe(&end_reason), format::seconds(reference.end));
             let (name, dt, tolerance) = STAND_IN;
             if let Some(method) = Method::from_name(name) {
                 let finest = Settings { method, dt, tolerance };
@@ -46,10 +46,10 @@ impl Reference {
     }
 }
 
-fn describe(cut: &Cut) -> String {
-    match cut {
-        Cut::Stalled(stall) => format!("stalls ({})", stall.kind),
-        Cut::Spent => "passes its budget".into(),
-        Cut::Enough => "was stopped".into(),
+fn describe(end_reason: &EndReason) -> String {
+    match end_reason {
+        EndReason::Stalled(stall) => format!("stalls ({})", stall.kind),
+        EndReason::Spent => "passes its budget".into(),
+        EndReason::Enough => "was stopped".into(),
     }
 }

@@ -18,7 +18,7 @@ pub(super) const SMALLEST: f64 = 1e-30;
 /// Most spheres in a scene.
 pub(super) const MOST_SPHERES: usize = 1_000_000;
 /// Most walls in a scene, a room's six counted. Every sphere of `paper` asks for every wall in every frame, so that more
-/// would be of no use to anybody.
+/// would be of no use.
 pub(super) const MOST_WALLS: usize = 100_000;
 /// Longest name or `about`, characters.
 const LONGEST_TEXT: usize = 300;

@@ -7,7 +7,7 @@ use crate::geometry::Bounds;
 /// Spacings of the numbers around a coordinate that a radius should hold at least: fewer, and the gap is mostly rounding.
 const RESOLVED: f64 = 1e6;
 
-/// Frames that nobody waits for: at a nanosecond each, a quarter of an hour.
+/// More frames than a user waits for: at a nanosecond each, a quarter of an hour.
 const FRAMES: f64 = 1e12;
 
 /// Durations of a scene that a run without frames may last before it is warned of: at a microsecond each, a quarter of
@@ -51,7 +51,7 @@ fn outside_walls(scene: &Scene) -> Option<String> {
     counted(scene, outside).map(|who| format!("{who} outside the box of all walls"))
 }
 
-/// What must be said of a run to `until` (s) whose end nobody will see.
+/// What must be said of a run to `until` (s) that will not end in any time a user waits.
 pub fn endless(scene: &Scene, Settings { method, dt, .. }: Settings, until: f64) -> Option<String> {
     let end = rounded(until);
     if method == Method::Exact {

@@ -77,7 +77,7 @@ pub struct Snapshot {
     pub v: Vec<DVec3>,
     /// Σ ½ m v² − m g·x − F·x, J.
     pub energy: f64,
-    /// The same at t = 0, J.
+    /// Σ ½ m v² − m g·x − F·x at t = 0, J.
     pub initial_energy: f64,
     /// Every contact of the frame that ended here.
     pub contacts: Vec<Contact>,

@@ -8,7 +8,7 @@ use std::sync::{
 use super::event::{Event, Post};
 use crate::app::{Input, Key};
 
-/// More keys and pastes do not wait: nobody types as far ahead.
+/// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
 
 /// What both ends know.

@@ -1,6 +1,6 @@
 //! Bytes to inputs.
 //!
-//! The bytes fall into characters, control sequences, strings (whose payload is nobody's key) and pastes, as a terminal
+//! The bytes fall into characters, control sequences, strings (whose payload holds no key) and pastes, as a terminal
 //! itself would take them apart. What was begun may be torn: after the escape time-out a lone escape counts as the key,
 //! and everything else as given up, but for a while longer what can only be the rest of it still belongs to it. Ctrl-C
 //! is the key wherever it comes, but in the midst of a paste that ends.

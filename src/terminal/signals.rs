@@ -1,4 +1,4 @@
-//! Signals as events, and stopping in a way that somebody can undo.
+//! Signals as events, and stopping in a way that the shell can undo.
 
 use std::{io, sync::Arc, thread, time::Duration};
 
@@ -32,7 +32,7 @@ pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
                 SIGCONT => post.send(Event::Continued),
                 end => {
                     post.send(Event::End(end));
-                    // Whoever draws may be stuck. This thread dies with the process if not.
+                    // The thread that draws may be stuck. If not, this one dies with the process.
                     thread::sleep(GRACE);
                     session.give_back();
                     std::process::exit(128 + end);

@@ -1,4 +1,4 @@
-//! Sends pictures on a thread of its own, so that a terminal that takes nothing stops nobody.
+//! Sends pictures on a thread of its own, so that a terminal that takes nothing stops no other thread.
 
 use std::{
     sync::{

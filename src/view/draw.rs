@@ -1,4 +1,4 @@
-//! One frame, each part in its place; and what its places are, for who moves in them.
+//! One frame, each part in its place; and where those places are.
 
 use glam::DVec3;
 use ratatui::{
@@ -10,7 +10,7 @@ use super::{
     help, inspector,
     layout::{self, Plan},
     projection, prompt, scenes,
-    screen::{Look, Popup, Screen},
+    screen::{Popup, Screen, ViewSettings},
     sheet::Sheet,
     stage, status, timeline, trade,
 };
@@ -21,9 +21,9 @@ use crate::snapshot::Stage;
 /// Every cell of `area` is written, so the buffer need not be cleared first.
 pub fn draw(screen: &Screen, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(*buffer.area());
-    let mut sheet = Sheet::new(buffer, screen.look);
+    let mut sheet = Sheet::new(buffer, screen.view_settings);
     sheet.clear(area);
-    match Plan::new(area, screen.look) {
+    match Plan::new(area, screen.view_settings) {
         Plan::TooSmall => {
             let plain = sheet.palette.plain();
             sheet.put(area, &format!("too small {}x{}", area.width, area.height), plain);
@@ -46,8 +46,8 @@ fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
         if let Some(area) = plan.inspector {
             inspector::draw(screen, area, sheet);
         }
-        if let (Some(area), Some(beside)) = (plan.trade, &screen.beside) {
-            trade::draw(screen, beside, area, sheet);
+        if let (Some(area), Some(comparison)) = (plan.trade, &screen.comparison) {
+            trade::draw(screen, comparison, area, sheet);
         }
         status::draw_alarm(screen, plan.body, sheet);
         status::draw_stall(screen, plan.body, sheet);
@@ -83,7 +83,7 @@ fn draw_popup(screen: &Screen, body: Rect, sheet: &mut Sheet) -> bool {
 
 /// Where the terminal's own cursor belongs while text is typed (prompt, filter); `None`: hidden.
 pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
-    let (body, last) = popup_places(screen.look, area)?;
+    let (body, last) = popup_places(screen.view_settings, area)?;
     match screen.popup {
         Popup::Prompt { text } => prompt::cursor(text, last),
         Popup::Scenes { filter, filtering: true, .. } => scenes::cursor(filter, body),
@@ -92,13 +92,13 @@ pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
 }
 
 /// How far the key table can be scrolled down at this size: rows of it that do not fit.
-pub fn help_scroll_limit(rows: &[(&str, &str)], look: &Look, area: Rect) -> usize {
-    popup_places(look, area).map_or(0, |(body, _)| help::scroll_limit(rows, body))
+pub fn help_scroll_limit(rows: &[(&str, &str)], settings: &ViewSettings, area: Rect) -> usize {
+    popup_places(settings, area).map_or(0, |(body, _)| help::scroll_limit(rows, body))
 }
 
 /// (where lists go, where the prompt goes), if there is room for any.
-fn popup_places(look: &Look, area: Rect) -> Option<(Rect, Rect)> {
-    match Plan::new(area, look) {
+fn popup_places(settings: &ViewSettings, area: Rect) -> Option<(Rect, Rect)> {
+    match Plan::new(area, settings) {
         Plan::TooSmall => None,
         Plan::Numbers { area } => Some((area, layout::split_bottom(area, 1).1)),
         Plan::Full(full) => Some((full.body, full.last)),
@@ -108,13 +108,13 @@ fn popup_places(look: &Look, area: Rect) -> Option<(Rect, Rect)> {
 /// What one view shows of the world at this size, m: width along x, height along y (side), height along z (top-down).
 ///
 /// A pan step is a fraction of it. Where no view is drawn, the extent of the scene's own view box over the zoom.
-pub fn visible_span(look: &Look, stage: &Stage, area: Rect) -> DVec3 {
-    let pane = match Plan::new(area, look) {
+pub fn visible_span(settings: &ViewSettings, stage: &Stage, area: Rect) -> DVec3 {
+    let pane = match Plan::new(area, settings) {
         Plan::Full(full) => full.panes.first().map(|pane| pane.canvas),
         _ => None,
     };
     match pane {
-        Some(canvas) => projection::Camera::new(look, stage, None, canvas).span(canvas),
-        None => (stage.view.max - stage.view.min) / projection::sane_zoom(look.zoom),
+        Some(canvas) => projection::Camera::new(settings, stage, None, canvas).span(canvas),
+        None => (stage.view.max - stage.view.min) / projection::sane_zoom(settings.zoom),
     }
 }

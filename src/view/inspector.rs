@@ -39,7 +39,7 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
 fn draw_sphere(screen: &Screen, column: &mut Column) {
     let snapshot = screen.snapshot;
     let stage = &snapshot.stage;
-    let chosen = screen.look.selected.and_then(|i| Some((i, snapshot.x.get(i)?, snapshot.v.get(i)?)));
+    let chosen = screen.view_settings.selected.and_then(|i| Some((i, snapshot.x.get(i)?, snapshot.v.get(i)?)));
     let Some((i, x, v)) = chosen else {
         column.heading("sphere", "none selected");
         return column.skip();

@@ -1,4 +1,4 @@
-//! Snapshot + look → ratatui `Buffer`. No clock, no input, no environment: a frame test builds a snapshot by hand.
+//! Snapshot + view settings → ratatui `Buffer`. No clock, no input, no environment: a frame test builds a snapshot by hand.
 //!
 //! A caller fills in a [`Screen`] and calls [`draw`](fn@draw). `layout` says what goes where; each part is drawn into its
 //! rectangle. The views go another way: `projection` turns metres into dots, `shapes` draws dots on a `canvas`, and the
@@ -39,4 +39,4 @@ mod timeline;
 mod trade;
 
 pub use draw::{cursor, draw, help_scroll_limit, visible_span};
-pub use screen::{Beside, Colors, Look, Marker, Mode, Overlays, Pace, Popup, Screen, Views};
+pub use screen::{Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};

@@ -19,7 +19,7 @@ const BARB: f64 = 3.0;
 
 /// Draws normals and velocities, under the spheres.
 pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
-    let overlays = view.screen.look.overlays;
+    let overlays = view.screen.view_settings.overlays;
     if overlays.velocities {
         draw_velocities(view, sheet);
     }
@@ -30,12 +30,12 @@ pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
 
 /// Draws contact marks and numbers, over the spheres.
 pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
-    let look = view.screen.look;
-    if look.overlays.contacts {
+    let settings = view.screen.view_settings;
+    if settings.overlays.contacts {
         draw_contacts(view, sheet);
     }
-    let spheres = if look.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
-    for sphere in spheres.filter(|sphere| look.selected != Some(*sphere)).chain(look.selected) {
+    let spheres = if settings.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
+    for sphere in spheres.filter(|sphere| settings.selected != Some(*sphere)).chain(settings.selected) {
         draw_number(view, sphere, sheet);
     }
 }
@@ -104,7 +104,7 @@ fn draw_contacts(view: &mut View, sheet: &Sheet) {
 fn draw_number(view: &mut View, sphere: usize, sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { return };
-    let selected = view.screen.look.selected == Some(sphere);
+    let selected = view.screen.view_settings.selected == Some(sphere);
     let (text, layer) =
         if selected { (format!("#{sphere}"), Layer::Selected) } else { (format!("{sphere}"), Layer::Contact) };
     let Some((x, y)) = on_canvas(view, *x) else { return };

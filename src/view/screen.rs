@@ -14,9 +14,9 @@ pub struct Screen<'a> {
     /// Collisions so far.
     pub ticks: &'a Ticks,
     /// The exact run beside this one, where it was asked for.
-    pub beside: Option<Beside<'a>>,
+    pub comparison: Option<Comparison<'a>>,
     /// What the user chose to look at, and how.
-    pub look: &'a Look,
+    pub view_settings: &'a ViewSettings,
     /// What lies over the views.
     pub popup: Popup<'a>,
     /// One line of news in place of the key hints.
@@ -27,7 +27,7 @@ pub struct Screen<'a> {
 
 /// The exact run beside the one shown, and what its accuracy costs.
 #[derive(Debug, Clone, Copy)]
-pub struct Beside<'a> {
+pub struct Comparison<'a> {
     /// Where the exact run is, once it has reached a moment that was shown.
     pub ghost: Option<&'a Ghost>,
     /// Errors and costs over time.
@@ -58,7 +58,7 @@ pub enum Mode {
 
 /// What the user chose to look at, and how.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Look {
+pub struct ViewSettings {
     /// Which projections.
     pub views: Views,
     /// Zoom factor over the scene's own view box; 1 shows the whole scene.
@@ -81,10 +81,10 @@ pub struct Look {
     pub colors: Colors,
 }
 
-impl Default for Look {
+impl Default for ViewSettings {
     /// The whole scene in both views, contacts marked, in braille dots and the terminal's own colours.
-    fn default() -> Look {
-        Look {
+    fn default() -> ViewSettings {
+        ViewSettings {
             views: Views::Both,
             zoom: 1.0,
             pan: DVec3::ZERO,

@@ -29,9 +29,9 @@ const HALO: f64 = 2.0;
 
 /// Draws one view with its label.
 pub(super) fn draw(screen: &Screen, pane: &Pane, sheet: &mut Sheet) {
-    let (snapshot, look) = (screen.snapshot, screen.look);
-    let followed = look.selected.filter(|_| look.follow).and_then(|i| snapshot.x.get(i).copied());
-    let camera = Camera::new(look, &snapshot.stage, followed, pane.canvas);
+    let (snapshot, settings) = (screen.snapshot, screen.view_settings);
+    let followed = settings.selected.filter(|_| settings.follow).and_then(|i| snapshot.x.get(i).copied());
+    let camera = Camera::new(settings, &snapshot.stage, followed, pane.canvas);
     let canvas = Canvas::new(pane.canvas);
     let mut view = View { side: pane.side, area: pane.canvas, camera, canvas, screen };
     draw_walls(&mut view, sheet);
@@ -58,7 +58,7 @@ fn draw_walls(view: &mut View, sheet: &Sheet) {
 
 /// Where the exact run's spheres are: dotted circles under all others, so that only what has strayed shows one.
 fn draw_ghost(view: &mut View, sheet: &Sheet) {
-    let Some(ghost) = view.screen.beside.and_then(|beside| beside.ghost) else { return };
+    let Some(ghost) = view.screen.comparison.and_then(|comparison| comparison.ghost) else { return };
     let ink = Ink::new(Layer::Ghost, sheet.palette.ghost());
     for (x, radius) in ghost.x.iter().zip(&view.screen.snapshot.stage.radii) {
         let (center, r) = (view.project(*x), radius * view.camera.scale);
@@ -101,7 +101,7 @@ fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let stage = &snapshot.stage;
     for (i, ((x, radius), state)) in snapshot.x.iter().zip(&stage.radii).zip(states).enumerate() {
-        let selected = view.screen.look.selected == Some(i);
+        let selected = view.screen.view_settings.selected == Some(i);
         let layer = match state {
             _ if selected => Layer::Selected,
             State::Free => Layer::Sphere,
@@ -151,12 +151,12 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     };
     let (faint, heading) = (sheet.palette.faint(), sheet.palette.heading());
     let used = sheet.put_all(label, &[(" ", faint), (name, heading), (" ", faint), (axes, faint)]);
-    let zoom = sane_zoom(view.screen.look.zoom);
+    let zoom = sane_zoom(view.screen.view_settings.zoom);
     let mut extra = String::new();
     if zoom != 1.0 {
         extra += &format!("  {}{}", sheet.glyphs.times, format::setting(zoom));
     }
-    if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.look.overlays.velocities) {
+    if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.view_settings.overlays.velocities) {
         extra += &format!("  {} {} s", sheet.glyphs.arrow, format::setting(seconds));
     }
     let scale = scale_bar(view, sheet) + " ";

@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 
 use super::{
     layout::{split_left, split_right, split_top},
-    screen::{Beside, Screen},
+    screen::{Comparison, Screen},
     sheet::Sheet,
 };
 use crate::format;
@@ -32,10 +32,10 @@ enum Scale {
 type Row<'a> = (&'a str, &'a str, &'a Trend, Scale);
 
 /// Draws the comparison: a heading, and a row for each quantity as far as there are rows.
-pub(super) fn draw(screen: &Screen, beside: &Beside, area: Rect, sheet: &mut Sheet) {
+pub(super) fn draw(screen: &Screen, comparison: &Comparison, area: Rect, sheet: &mut Sheet) {
     let (row, mut rest) = split_top(area, 1);
-    draw_heading(screen, beside, row, sheet);
-    let trade = beside.trade;
+    draw_heading(screen, comparison, row, sheet);
+    let trade = comparison.trade;
     let rows: [Row; 5] = [
         ("error", "m", &trade.deviation, Scale::Log),
         ("energy", "relative", &trade.energy_error, Scale::Log),
@@ -43,7 +43,7 @@ pub(super) fn draw(screen: &Screen, beside: &Beside, area: Rect, sheet: &mut She
         ("gaps", "a frame", &trade.evaluations, Scale::Linear),
         ("CPU", "ms/s", &trade.cost, Scale::Linear),
     ];
-    let past = beside.ghost.filter(|ghost| ghost.is_past_horizon()).and_then(|ghost| ghost.horizon);
+    let past = comparison.ghost.filter(|ghost| ghost.is_past_horizon()).and_then(|ghost| ghost.horizon);
     for (i, quantity) in rows.iter().enumerate() {
         let (row, below) = split_top(rest, 1);
         match past {
@@ -55,9 +55,9 @@ pub(super) fn draw(screen: &Screen, beside: &Beside, area: Rect, sheet: &mut She
 }
 
 /// Where the exact run is, and how far off the selected sphere is, or the worst.
-fn draw_heading(screen: &Screen, beside: &Beside, row: Rect, sheet: &mut Sheet) {
+fn draw_heading(screen: &Screen, comparison: &Comparison, row: Rect, sheet: &mut Sheet) {
     let (heading, plain, faint) = (sheet.palette.heading(), sheet.palette.plain(), sheet.palette.faint());
-    let Some(ghost) = beside.ghost else {
+    let Some(ghost) = comparison.ghost else {
         sheet.put_all(row, &[(" exact run ", heading), ("on its way", faint)]);
         return;
     };
@@ -86,7 +86,7 @@ fn offset(screen: &Screen, ghost: &Ghost) -> String {
     if ghost.is_past_horizon() {
         return String::new();
     }
-    let selected = screen.look.selected.and_then(|i| Some((i, *ghost.deviations.get(i)?)));
+    let selected = screen.view_settings.selected.and_then(|i| Some((i, *ghost.deviations.get(i)?)));
     match (selected, ghost.worst()) {
         (Some((i, off)), _) => format!("#{i} selected, off by {} m ", format_args!("{off:.2e}")),
         (None, Some((i, off))) if off > 0.0 => format!("#{i} is furthest off, by {} m ", format_args!("{off:.2e}")),

@@ -9,12 +9,12 @@
 //! | `message` | what goes to a worker and what comes back |
 //! | `thread` | the worker, seen from its reader |
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
-//! | `beside` | the exact run that follows the run shown |
+//! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
 
-mod beside;
 mod errands;
+mod exact_follower;
 mod mailbox;
 mod message;
 mod pace;
@@ -22,7 +22,7 @@ mod run;
 mod slot;
 mod thread;
 
-pub use beside::{Beside, Ending};
 pub use errands::Errands;
+pub use exact_follower::{Ending, ExactFollower};
 pub use message::{Activity, Command, Job, Notify, Report};
 pub use thread::Worker;

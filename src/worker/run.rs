@@ -96,7 +96,7 @@ impl Runner {
         }
     }
 
-    /// Until nobody is left to send commands.
+    /// Obeys, advances and reports until no sender of commands is left.
     pub(super) fn run(&mut self, slot: &Slot<Report>) {
         while self.listen() {
             if self.goal != Goal::Nowhere {
@@ -111,7 +111,7 @@ impl Runner {
         }
     }
 
-    /// Obeys what has arrived; sleeps first if there is nothing else to do. False if nobody is left to send.
+    /// Obeys what has arrived; sleeps first if there is nothing else to do. False if no sender is left.
     fn listen(&mut self) -> bool {
         let first = match self.rest() {
             Some(0.0) => self.commands.try_recv().map_err(|error| error == TryRecvError::Empty),

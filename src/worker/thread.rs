@@ -33,7 +33,7 @@ impl Worker {
         let slot = Arc::new(Slot::new(runner.report(), notify));
         let theirs = Arc::clone(&slot);
         thread::Builder::new().name("simulation".into()).spawn(move || {
-            // The runner is given up with the thread, so nobody can see what the panic left half done.
+            // The runner is given up with the thread, so what the panic left half done is not seen.
             if let Err(payload) = catch_unwind(AssertUnwindSafe(|| runner.run(&theirs))) {
                 let last = theirs.take();
                 theirs.put(Report { panic: Some(said(payload.as_ref())), ..Report::clone(&last) });

@@ -7,7 +7,7 @@ use carom::random::SplitMix64;
 use carom::{
     geometry::{Bounds, Parallelogram},
     snapshot::{Alarm, Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
-    view::{Beside, Look, Mode, Pace, Popup, Screen},
+    view::{Comparison, Mode, Pace, Popup, Screen, ViewSettings},
 };
 use glam::{DVec3, dvec3};
 
@@ -16,10 +16,10 @@ use glam::{DVec3, dvec3};
 pub(crate) struct Scene {
     pub(crate) snapshot: Snapshot,
     pub(crate) ticks: Ticks,
-    pub(crate) look: Look,
+    pub(crate) view_settings: ViewSettings,
     pub(crate) pace: Pace,
     /// The exact run beside it.
-    pub(crate) beside: Option<(Option<Ghost>, Trade)>,
+    pub(crate) comparison: Option<(Option<Ghost>, Trade)>,
 }
 
 pub(crate) const HINTS: &[(&str, &str)] = &[
@@ -41,8 +41,8 @@ impl Scene {
             snapshot: &self.snapshot,
             pace: self.pace,
             ticks: &self.ticks,
-            beside: self.beside.as_ref().map(|(ghost, trade)| Beside { ghost: ghost.as_ref(), trade }),
-            look: &self.look,
+            comparison: self.comparison.as_ref().map(|(ghost, trade)| Comparison { ghost: ghost.as_ref(), trade }),
+            view_settings: &self.view_settings,
             popup: Popup::None,
             message: None,
             hints: HINTS,
@@ -100,7 +100,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
     };
     let ticks = Ticks { span: 20.0, impacts: vec![0; 80] };
     let pace = Pace { mode: Mode::Pause, wanted: 1.0, reached: None };
-    Scene { snapshot, ticks, look: Look::default(), pace, beside: None }
+    Scene { snapshot, ticks, view_settings: ViewSettings::default(), pace, comparison: None }
 }
 
 /// Changes what is constant.
@@ -169,7 +169,7 @@ pub(crate) fn wedge() -> Scene {
         scene.ticks.impacts[bin] = impacts;
     }
     scene.pace = Pace { mode: Mode::Run, wanted: 0.25, reached: Some(0.2493) };
-    scene.look.selected = Some(0);
+    scene.view_settings.selected = Some(0);
     scene
 }
 
@@ -198,9 +198,9 @@ pub(crate) fn pile() -> Scene {
             ..contact(Kind::Pair, 1, 2, Class::Leave)
         },
     ];
-    scene.look.overlays.velocities = true;
-    scene.look.overlays.normals = true;
-    scene.look.overlays.ids = true;
+    scene.view_settings.overlays.velocities = true;
+    scene.view_settings.overlays.normals = true;
+    scene.view_settings.overlays.ids = true;
     scene
 }
 
@@ -220,8 +220,8 @@ pub(crate) fn strayed() -> Scene {
         trade.evaluations.add(t, f64::from(8 + k % 7));
         trade.cost.add(t, 0.35 + 0.01 * f64::from(k % 3));
     }
-    scene.look.ghost = true;
-    scene.beside = Some((Some(ghost), trade));
+    scene.view_settings.ghost = true;
+    scene.comparison = Some((Some(ghost), trade));
     scene
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::lab::Trouble;
+use super::runner::Trouble;
 use crate::geometry::Parallelogram;
 use crate::physics::Simulation;
 use crate::scene::{ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};

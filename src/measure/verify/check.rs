@@ -1,26 +1,26 @@
 //! A family of known results, and what became of it.
 
-use super::lab::{Lab, Row, Trouble};
+use super::runner::{Row, Runner, Trouble};
 
 /// A family of known results that are measured together.
 #[derive(Debug, Clone, Copy)]
 pub struct Check {
     /// What it is about, in two or three words.
     pub title: &'static str,
-    /// What is expected, and who says so.
+    /// What is expected, and its source.
     pub source: &'static str,
     /// Why an error of that size is allowed.
     pub allowed: &'static str,
-    pub(super) measure: fn(&Lab) -> Result<Vec<Row>, Trouble>,
+    pub(super) measure: fn(&Runner) -> Result<Vec<Row>, Trouble>,
 }
 
 impl Check {
     /// Measures its rows; never empty.
     ///
     /// # Errors
-    /// If a run stalls, or the lab is not to go on.
-    pub fn rows(&self, lab: &Lab) -> Result<Vec<Row>, Trouble> {
-        (self.measure)(lab)
+    /// If a run stalls, or the runner is not to go on.
+    pub fn rows(&self, runner: &Runner) -> Result<Vec<Row>, Trouble> {
+        (self.measure)(runner)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::bodies::ELASTIC;
 use super::check::Check;
 use super::gas::{Gas, SIGMA, continued, gas};
-use super::lab::{Lab, Row, Trouble};
+use super::runner::{Row, Runner, Trouble};
 use crate::scene::ContactLaw;
 
 pub(super) const CHECK: Check = Check {
@@ -20,10 +20,10 @@ const E: f64 = 0.99;
 /// Share of the box that is filled: dilute, so that nothing clusters for long.
 const PACKING: f64 = 0.1;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let (count, looks) = lab.pick((2000, 500), (10_000, 2000));
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let (count, looks) = runner.pick((2000, 500), (10_000, 2000));
     let scene = gas(PACKING, count, &[1.0])?;
-    let mut elastic = Gas::thermal(lab, &scene)?;
+    let mut elastic = Gas::thermal(runner, &scene)?;
     let (start, window) = (elastic.run.time(), 0.1 * SIGMA * f64::from(looks));
     let state = elastic.go(start + window)?;
     let before = elastic.impacts().filter(|impact| impact.time <= start + window).count() as f64;
@@ -31,7 +31,7 @@ fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
     let tau = 6.0 / ((1.0 - E * E) * rate);
 
     let lossy = continued(&scene, &state, ContactLaw { restitution: E, ..ELASTIC })?;
-    let mut gas = Gas::new(lab, &lossy);
+    let mut gas = Gas::new(runner, &lossy);
     gas.run.record_events(true);
     let first = gas.temperature();
     // T falls to 4/9: 122 impacts of each sphere.

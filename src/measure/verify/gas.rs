@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::bodies::EXACT;
-use super::lab::{Lab, Trouble};
+use super::runner::{Runner, Trouble};
 use crate::physics::{Class, Contact, Kind, Simulation, State};
 use crate::scene::{self, ContactLaw, Scene};
 
@@ -47,20 +47,20 @@ pub(super) fn continued(scene: &Scene, state: &State, contact: ContactLaw) -> Re
 
 /// A gas under way.
 pub(super) struct Gas<'a> {
-    lab: &'a Lab<'a>,
+    runner: &'a Runner<'a>,
     pub(super) run: Simulation,
     pub(super) count: f64,
 }
 
 impl<'a> Gas<'a> {
     /// From this scene on, in which nothing has happened yet.
-    pub(super) fn new(lab: &'a Lab, scene: &Scene) -> Gas<'a> {
-        Gas { lab, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
+    pub(super) fn new(runner: &'a Runner, scene: &Scene) -> Gas<'a> {
+        Gas { runner, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
     }
 
-    /// The same, after so long that the start is forgotten.
-    pub(super) fn thermal(lab: &'a Lab, scene: &Scene) -> Result<Gas<'a>, Trouble> {
-        let mut gas = Gas::new(lab, scene);
+    /// From this scene on, run until the start is forgotten.
+    pub(super) fn thermal(runner: &'a Runner, scene: &Scene) -> Result<Gas<'a>, Trouble> {
+        let mut gas = Gas::new(runner, scene);
         gas.go(WARM_UP)?;
         gas.run.record_events(true);
         gas.run.take_events();
@@ -69,7 +69,7 @@ impl<'a> Gas<'a> {
 
     /// The state at `time`, s.
     pub(super) fn go(&mut self, time: f64) -> Result<State, Trouble> {
-        self.lab.go(&mut self.run, time)
+        self.runner.go(&mut self.run, time)
     }
 
     /// The impacts of pairs since the last look.

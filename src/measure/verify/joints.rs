@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bodies::{G, exact, floor, scene, smooth, sphere, wall};
 use super::check::Check;
-use super::lab::{Lab, Row, Trouble};
+use super::runner::{Row, Runner, Trouble};
 use crate::physics::{Class, Until};
 use crate::scene::{Scene, Wall};
 
@@ -22,14 +22,14 @@ pub(super) const RIDGE: Check = Check {
 /// Speed on the plateau, m/s.
 const SPEED: f64 = 0.5;
 
-fn ridge(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn ridge(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let mut steep = exact(&plateau_and_slope(DVec3::new(0.6, -0.8, 0.0))?);
-    lab.go(&mut steep, 2.0)?;
+    runner.go(&mut steep, 2.0)?;
     let release = steep.take_events().into_iter().rfind(|event| event.class == Class::Release);
     let cosine = 2.0 / 3.0 * (1.0 + SPEED * SPEED / (2.0 * G * R));
     let gentle = plateau_and_slope(DVec3::new(0.8, -0.6, 0.0))?;
     let mut run = exact(&gentle);
-    let end = lab.go(&mut run, 2.0)?;
+    let end = runner.go(&mut run, 2.0)?;
     let (x, v) = (end.x[0], end.v[0]);
     let fallen = R - x.y;
     let height = DVec3::new(0.6, 0.8, 0.0).dot(x);
@@ -56,12 +56,12 @@ pub(super) const TILES: Check = Check {
     measure: tiles,
 };
 
-fn tiles(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn tiles(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let law = smooth(0.5);
     let ball = sphere(DVec3::new(-7.0, R + 0.2, -7.0), DVec3::new(1.5, 0.0, 1.5), R);
     let over = |walls: Vec<Wall>| {
         let tiles = scene(DVec3::Y * -G, law, walls, vec![ball.clone()])?;
-        lab.go(&mut exact(&tiles), 9.0)
+        runner.go(&mut exact(&tiles), 9.0)
     };
     let one = over(vec![floor()])?;
     let row = |(what, crack): (&str, f64)| {
@@ -87,11 +87,11 @@ pub(super) const FUNNEL: Check = Check {
     measure: funnels,
 };
 
-fn funnels(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn funnels(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let mut rows = Vec::new();
-    for sides in lab.pick(&[3, 4, 6][..], &[3, 4, 5, 6, 7, 8][..]) {
+    for sides in runner.pick(&[3, 4, 6][..], &[3, 4, 5, 6, 7, 8][..]) {
         let mut run = exact(&funnel(*sides)?);
-        let before = lab.go(&mut run, 20.0)?;
+        let before = runner.go(&mut run, 20.0)?;
         run.advance(Until::Frame, u64::MAX);
         let resting = run.contacts().iter().filter(|contact| contact.class == Class::Rest);
         let given: DVec3 = resting.map(|contact| contact.normal * contact.impulse).sum();

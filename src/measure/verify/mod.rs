@@ -6,7 +6,7 @@
 //! | file | owns |
 //! |---|---|
 //! | `check` | a family of results, and what became of it |
-//! | `lab` | how thoroughly, how a run is advanced, what a row is |
+//! | `runner` | how thoroughly, how a run is advanced, what a row is |
 //! | `bodies` | scenes built in code |
 //! | `statistics` | means, standard errors, slopes |
 //! | `table` | the results as text |
@@ -20,11 +20,11 @@ mod cooling;
 mod gas;
 mod golden;
 mod joints;
-mod lab;
 mod mixture;
 mod pressure;
 mod rest;
 mod reversal;
+mod runner;
 mod statistics;
 mod steps;
 pub mod table;
@@ -35,7 +35,7 @@ use std::thread;
 
 pub use check::{Check, Outcome};
 pub use golden::{GOLDEN, Golden};
-pub use lab::{Depth, Lab, Row, Trouble};
+pub use runner::{Depth, Row, Runner, Trouble};
 
 /// Every family, in the order in which they are told.
 pub const CHECKS: &[Check] = &[
@@ -59,15 +59,15 @@ pub const CHECKS: &[Check] = &[
 ];
 
 /// Measures every check on so many threads, and tells each outcome as soon as it is there, in any order.
-pub fn verify(lab: Lab, threads: usize, mut tell: impl FnMut(Outcome)) {
+pub fn verify(runner: Runner, threads: usize, mut tell: impl FnMut(Outcome)) {
     let (next, (outcomes, inbox)) = (AtomicUsize::new(0), mpsc::channel());
     thread::scope(|scope| {
         for _ in 0..threads.clamp(1, CHECKS.len()) {
             let (next, outcomes) = (&next, outcomes.clone());
             scope.spawn(move || {
                 while let Some((index, check)) = claim(next) {
-                    // Nobody listens any more: the reader has gone, and so may we.
-                    if outcomes.send((index, check.rows(&lab))).is_err() {
+                    // The receiver has gone: there is nothing left to do.
+                    if outcomes.send((index, check.rows(&runner))).is_err() {
                         return;
                     }
                 }
@@ -90,8 +90,8 @@ mod tests {
 
     /// Titles of the checks that fail under a law of that restitution, but for `left_out`.
     fn failing(pairs: f64, walls: f64, left_out: &[&str]) -> Vec<&'static str> {
-        let lab = Lab::new(Depth::Quick, &|| true);
-        let fails = |check: &&Check| check.rows(&lab).map_or(true, |rows| !rows.iter().all(Row::passes));
+        let runner = Runner::new(Depth::Quick, &|| true);
+        let fails = |check: &&Check| check.rows(&runner).map_or(true, |rows| !rows.iter().all(Row::passes));
         let checks = CHECKS.iter().filter(|check| !left_out.contains(&check.title));
         with_restitution_times(pairs, walls, || checks.filter(fails).map(|check| check.title).collect())
     }
@@ -101,9 +101,9 @@ mod tests {
 
     #[test]
     fn under_the_right_law_every_check_has_rows_that_pass_and_names_that_fit() {
-        let lab = Lab::new(Depth::Quick, &|| true);
+        let runner = Runner::new(Depth::Quick, &|| true);
         for check in CHECKS.iter().filter(|check| !GASES.contains(&check.title)) {
-            let rows = check.rows(&lab).expect("a result");
+            let rows = check.rows(&runner).expect("a result");
             let fine = |row: &Row| row.passes() && row.what.chars().count() <= 28;
             assert!(!rows.is_empty() && rows.iter().all(fine), "{rows:?}");
         }
@@ -133,9 +133,9 @@ mod tests {
 
     #[test]
     fn who_is_told_not_to_go_on_has_no_result() {
-        let lab = Lab::new(Depth::Quick, &|| false);
+        let runner = Runner::new(Depth::Quick, &|| false);
         let mut told = Vec::new();
-        verify(lab, 2, |(index, outcome)| told.push((index, outcome == Err(Trouble::Interrupted))));
+        verify(runner, 2, |(index, outcome)| told.push((index, outcome == Err(Trouble::Interrupted))));
         told.sort_unstable();
         assert_eq!(told, (0..CHECKS.len()).map(|index| (index, true)).collect::<Vec<_>>());
     }

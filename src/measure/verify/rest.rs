@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bodies::{G, exact, floor, scene, sphere, wall};
 use super::check::Check;
-use super::lab::{Lab, Row, Trouble};
+use super::runner::{Row, Runner, Trouble};
 use crate::physics::State;
 use crate::physics::support::{Bodies, Resting, Surface, hold};
 use crate::scene::{ContactLaw, Scene, Sphere};
@@ -30,11 +30,11 @@ const NEAR: f64 = 1e-9;
 /// Forces, relative: factors of matrices of some sixty rows, all of numbers around 1.
 const FORCE: f64 = 1e-12;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let (column, pyramid) = (column()?, pyramid()?);
-    let until = lab.pick(20.0, 100.0);
-    let column_end = lab.go(&mut exact(&column), until)?;
-    let pyramid_end = lab.go(&mut exact(&pyramid), until)?;
+    let until = runner.pick(20.0, 100.0);
+    let column_end = runner.go(&mut exact(&column), until)?;
+    let pyramid_end = runner.go(&mut exact(&pyramid), until)?;
     // Contacts in the order of the spheres, lowest first: the k-th carries all spheres from k on.
     let share = |(k, carried): (usize, Carried)| carried.force / (G * (column.spheres.len() - k) as f64);
     let shares = carried(&column, &column_end).into_iter().enumerate().map(share);

@@ -1,7 +1,7 @@
 //! The results as text in 80 columns: a line each, then a note on each check.
 
 use super::check::Check;
-use super::lab::Row;
+use super::runner::Row;
 use crate::format;
 
 /// Columns of every line.

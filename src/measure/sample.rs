@@ -25,7 +25,7 @@ impl Budget {
     pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY };
     /// For a reference: minutes of flights. A crowd that settles takes more, and gets the stand-in.
     pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0 };
-    /// For a reference that somebody waits for.
+    /// For a reference that a user waits for.
     pub const BRIEF: Budget = Budget { work: 200_000, cpu: 0.6 };
 }
 
@@ -65,28 +65,28 @@ impl Instants {
 pub struct Impact {
     /// When, s.
     pub time: f64,
-    /// Between whom.
+    /// Between which two bodies.
     pub key: Key,
 }
 
-/// Why a walk ended before its last instant.
+/// Why a run that was read ended before its last instant.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Cut {
+pub enum EndReason {
     /// The method cannot go on.
     Stalled(Stall),
     /// Its budget of work is spent.
     Spent,
-    /// Whoever looked on has seen enough.
+    /// The caller has seen enough.
     Enough,
 }
 
 /// A run that has been read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Walk {
+pub struct Sampled {
     /// How far it was read, s.
     pub end: f64,
     /// Why not to the last instant.
-    pub cut: Option<Cut>,
+    pub end_reason: Option<EndReason>,
     /// Its impacts up to `end`, in order.
     pub impacts: Vec<Impact>,
     /// What it counted, up to the end of the frame that holds `end`.
@@ -98,33 +98,33 @@ pub struct Walk {
 ///
 /// # Errors
 /// If `go_on` says no.
-pub fn walk(
+pub fn sample(
     simulation: &mut Simulation,
     instants: Instants,
     budget: Budget,
     go_on: GoOn,
     mut visit: impl FnMut(usize, &State) -> ControlFlow<()>,
-) -> Result<Walk, Interrupted> {
+) -> Result<Sampled, Interrupted> {
     simulation.record_events(true);
-    let (mut impacts, mut cut, mut end) = (Vec::new(), None, 0.0);
+    let (mut impacts, mut end_reason, mut end) = (Vec::new(), None, 0.0);
     let mut pace = Pace::new(budget);
     for k in 0..=instants.count {
-        cut = pace.reach(simulation, instants.at(k), go_on)?;
+        end_reason = pace.reach(simulation, instants.at(k), go_on)?;
         keep_impacts(simulation, &mut impacts);
-        if cut.is_some() {
+        if end_reason.is_some() {
             break;
         }
         end = instants.at(k);
         if visit(k, &simulation.at(end)).is_break() {
-            cut = Some(Cut::Enough);
+            end_reason = Some(EndReason::Enough);
             break;
         }
     }
-    if let Some(Cut::Stalled(stall)) = &cut {
+    if let Some(EndReason::Stalled(stall)) = &end_reason {
         end = stall.time.clamp(end, instants.until);
     }
     impacts.retain(|impact| impact.time <= end);
-    Ok(Walk { end, cut, impacts, tallies: simulation.tallies() })
+    Ok(Sampled { end, end_reason, impacts, tallies: simulation.tallies() })
 }
 
 /// Runs to `until` (s) and reads nothing: what a run costs by itself. False if it stalls before.
@@ -132,7 +132,7 @@ pub fn walk(
 /// # Errors
 /// If `go_on` says no.
 pub(super) fn run_through(simulation: &mut Simulation, until: f64, go_on: GoOn) -> Result<bool, Interrupted> {
-    Pace::new(Budget::UNLIMITED).reach(simulation, until, go_on).map(|cut| cut.is_none())
+    Pace::new(Budget::UNLIMITED).reach(simulation, until, go_on).map(|end_reason| end_reason.is_none())
 }
 
 /// Work in slices that are neither so long that an interrupt waits nor so short that asking takes the time.
@@ -149,7 +149,7 @@ impl Pace {
     }
 
     /// Advances until a frame holds `time` (s); says so if it cannot.
-    fn reach(&mut self, simulation: &mut Simulation, time: f64, go_on: GoOn) -> Result<Option<Cut>, Interrupted> {
+    fn reach(&mut self, simulation: &mut Simulation, time: f64, go_on: GoOn) -> Result<Option<EndReason>, Interrupted> {
         let (mut interrupted, mut before) = (false, None);
         let end = simulation.run_to(time, |run| {
             let now = self.since.wall();
@@ -163,8 +163,8 @@ impl Pace {
         match end {
             _ if interrupted => Err(Interrupted),
             Progress::Reached => Ok(None),
-            Progress::Stalled(stall) => Ok(Some(Cut::Stalled(stall))),
-            Progress::Yielded => Ok(Some(Cut::Spent)),
+            Progress::Stalled(stall) => Ok(Some(EndReason::Stalled(stall))),
+            Progress::Yielded => Ok(Some(EndReason::Spent)),
         }
     }
 

@@ -83,21 +83,21 @@ impl fmt::Display for Trouble {
 
 /// How thoroughly to measure, and whether to go on.
 #[derive(Clone, Copy)]
-pub struct Lab<'a> {
+pub struct Runner<'a> {
     depth: Depth,
     go_on: GoOn<'a>,
 }
 
-impl fmt::Debug for Lab<'_> {
+impl fmt::Debug for Runner<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Lab").field("depth", &self.depth).finish_non_exhaustive()
+        f.debug_struct("Runner").field("depth", &self.depth).finish_non_exhaustive()
     }
 }
 
-impl<'a> Lab<'a> {
+impl<'a> Runner<'a> {
     /// A place to measure at this depth, as long as `go_on` says so.
-    pub fn new(depth: Depth, go_on: GoOn<'a>) -> Lab<'a> {
-        Lab { depth, go_on }
+    pub fn new(depth: Depth, go_on: GoOn<'a>) -> Runner<'a> {
+        Runner { depth, go_on }
     }
 
     /// The one or the other, by depth.

@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// The exact run of a scene, seen from the run that is measured by it. Dropping it ends its thread.
-pub struct Beside {
+pub struct ExactFollower {
     snapshots: Sender<Arc<Snapshot>>,
     slot: Arc<Slot<Option<Ghost>>>,
     thread: JoinHandle<()>,
@@ -33,13 +33,13 @@ pub struct Beside {
 /// An exact run that was told to end, which it does within some milliseconds, or once its scene is set up.
 pub struct Ending(JoinHandle<()>);
 
-impl Beside {
+impl ExactFollower {
     /// Starts an exact run of `scene` in a thread, which calls `notify` when there is a ghost that has not been taken.
     /// The run begins when the one `before` it has ended, so that the memory of one is enough.
     ///
     /// # Errors
     /// If the system has no thread to give.
-    pub fn start(scene: Arc<Scene>, before: Option<Ending>, notify: Notify) -> std::io::Result<Beside> {
+    pub fn start(scene: Arc<Scene>, before: Option<Ending>, notify: Notify) -> std::io::Result<ExactFollower> {
         let (snapshots, inbox) = mailbox();
         let slot = Arc::new(Slot::new(None, notify));
         let theirs = Arc::clone(&slot);
@@ -51,10 +51,10 @@ impl Beside {
             let Some(mut follower) = Follower::new(scene, inbox) else { return };
             while follower.follow(&theirs).is_some() {}
         })?;
-        Ok(Beside { snapshots, slot, thread })
+        Ok(ExactFollower { snapshots, slot, thread })
     }
 
-    /// Tells the thread to end; what is returned is for the [`Beside::start`] of the next run.
+    /// Tells the thread to end; what is returned is for the [`ExactFollower::start`] of the next run.
     pub fn end(self) -> Ending {
         Ending(self.thread)
     }
@@ -101,7 +101,7 @@ impl Follower {
         Some(Follower { scene, inbox, exact, growth, ghost: None, energy_scale, next })
     }
 
-    /// Waits for a snapshot, goes as far as it is, and compares; `None` if nobody is left to send one.
+    /// Waits for a snapshot, goes as far as it is, and compares; `None` if no sender is left.
     fn follow(&mut self, slot: &Slot<Option<Ghost>>) -> Option<()> {
         self.listen()?;
         let Some(target) = self.next.take() else { return self.look_ahead(slot) };
@@ -142,7 +142,7 @@ impl Follower {
         Some(())
     }
 
-    /// Keeps the newest snapshot that has arrived; `None` if nobody is left to send one.
+    /// Keeps the newest snapshot that has arrived; `None` if no sender is left.
     fn listen(&mut self) -> Option<()> {
         if let Some(snapshot) = self.inbox.look().ok()? {
             self.next = Some(snapshot);
