@@ -4,11 +4,11 @@
 mod random;
 mod support;
 
-use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 use random::Random;
-use support::{ELASTIC, G, PAPER_LAW, room, scene, sphere, wall};
+use support::{ELASTIC, G, PAPER_LAW, go, pyramid, room, scene, sphere, wall};
 
 /// Impacts lose half of the approach speed.
 const HALF: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, ..PAPER_LAW };
@@ -23,18 +23,6 @@ fn run_of(method: Method, scene: &Scene) -> Simulation {
     let mut run = Simulation::new(scene, Settings { method, dt: 0.1, tolerance: 1e-12 });
     run.record_events(true);
     run
-}
-
-/// Runs to `until`, s; returns the state then.
-fn go(run: &mut Simulation, until: f64) -> State {
-    for _ in 0..1000 {
-        match run.advance(Until::Time(until), 100_000) {
-            Progress::Reached => return run.at(until),
-            Progress::Yielded => {}
-            Progress::Stalled(stall) => panic!("{}", stall.reason),
-        }
-    }
-    panic!("a hundred million events and still at {} s", run.time());
 }
 
 /// Deepest overlap of any two bodies, m.
@@ -85,19 +73,6 @@ fn tube() -> Vec<Wall> {
     room(dvec3(-0.5, 0.0, -0.5), dvec3(0.5, 20.0, 0.5))
 }
 
-/// The 4-layer pyramid of thirty touching spheres between four walls.
-fn pyramid() -> Scene {
-    let mut spheres = Vec::new();
-    for layer in 0..4_u8 {
-        let (side, height) = (4 - layer, f64::from(layer) * 0.5_f64.sqrt());
-        for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
-            let at = |k: u8| f64::from(k) - f64::from(side - 1) * 0.5;
-            spheres.push(still(dvec3(at(i), 0.5 + height, at(j))));
-        }
-    }
-    scene(G, HALF, room(dvec3(-2.0, 0.0, -2.0), dvec3(2.0, 10.0, 2.0)), spheres)
-}
-
 #[test]
 fn a_sphere_in_a_v_rests_for_a_hundred_seconds() {
     assert_rests("sphere in a V", &scene(G, PAPER_LAW, groove(), vec![still(dvec3(0.0, 0.625, 0.0))]));
@@ -118,7 +93,7 @@ fn a_heavy_sphere_on_a_column_of_light_ones_rests_for_a_hundred_seconds() {
 
 #[test]
 fn a_confined_pyramid_rests_for_a_hundred_seconds() {
-    assert_rests("pyramid", &pyramid());
+    assert_rests("pyramid", &pyramid(4, 0.0, HALF));
 }
 
 #[test]

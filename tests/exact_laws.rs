@@ -5,7 +5,7 @@ mod support;
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, scene, sphere, wall};
+use support::{ELASTIC, G, floor, go, scene, sphere, wall};
 
 /// One rounding, relative.
 const EPS: f64 = f64::EPSILON;
@@ -14,18 +14,6 @@ fn start(scene: &Scene) -> Simulation {
     let mut run = Simulation::new(scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-3 });
     run.record_events(true);
     run
-}
-
-/// Runs to `until`, s; returns the state then.
-fn go(run: &mut Simulation, until: f64) -> State {
-    for _ in 0..100 {
-        match run.advance(Until::Time(until), 100_000) {
-            Progress::Reached => return run.at(until),
-            Progress::Yielded => {}
-            Progress::Stalled(stall) => panic!("{}", stall.reason),
-        }
-    }
-    panic!("ten million events and still at {} s", run.time());
 }
 
 /// Runs frame by frame until this pair or wall has collided; returns the state right then.
@@ -48,11 +36,6 @@ fn smooth(e: f64) -> ContactLaw {
     ContactLaw { restitution: e, wall_restitution: e, ..ELASTIC }
 }
 
-/// A floor of 20 m × 20 m at y = 0.
-fn floor() -> Wall {
-    wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::NEG_Z * 20.0)
-}
-
 /// A sphere of radius 0.5 m, `h` (m) above the floor.
 fn dropped(h: f64, law: ContactLaw) -> Scene {
     dropped_ball(0.5, h, law)
@@ -60,7 +43,7 @@ fn dropped(h: f64, law: ContactLaw) -> Scene {
 
 /// A sphere of radius `r` (m), `h` (m) above the floor.
 fn dropped_ball(r: f64, h: f64, law: ContactLaw) -> Scene {
-    scene(G, law, vec![floor()], vec![sphere(DVec3::Y * (r + h), DVec3::ZERO, r)])
+    scene(G, law, vec![floor(20.0)], vec![sphere(DVec3::Y * (r + h), DVec3::ZERO, r)])
 }
 
 fn ball(x: f64, v: f64, mass: f64) -> Sphere {

@@ -11,7 +11,7 @@ mod support;
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, paper_scene, room, run_to, scene, sphere, wall};
+use support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, room, run_to, scene, sphere, wall};
 
 /// What is found, or what must not be.
 type Cell = Result<String, String>;
@@ -76,10 +76,6 @@ fn go(run: &mut Simulation, until: f64) -> Result<(), String> {
 /// Impacts up to now.
 fn impacts(run: &mut Simulation) -> usize {
     run.take_events().iter().filter(|event| event.class == Class::Collide).count()
-}
-
-fn floor(half: f64) -> Wall {
-    wall(DVec3::ZERO, DVec3::X * 2.0 * half, DVec3::NEG_Z * 2.0 * half)
 }
 
 fn still(x: DVec3) -> Sphere {
@@ -210,7 +206,7 @@ fn unlike_masses(method: Method) -> Cell {
 fn dropped(method: Method, r: f64, dt: f64, until: f64) -> Result<f64, String> {
     let body = sphere(DVec3::Y * 11.0 * r, DVec3::ZERO, r);
     let rest_speed = 0.01 * (20.0 * 9.8 * r).sqrt();
-    let mut run = start(&scene(G, law(0.5, rest_speed), vec![floor(100.0 * r)], vec![body]), method, dt, 1e-3);
+    let mut run = start(&scene(G, law(0.5, rest_speed), vec![floor(2.0 * 100.0 * r)], vec![body]), method, dt, 1e-3);
     go(&mut run, until)?;
     Ok(run.at(until).x[0].y / r - 1.0)
 }
@@ -228,7 +224,7 @@ fn huge(method: Method) -> Cell {
 
 fn far_away(method: Method) -> Cell {
     let at = dvec3(1e9, 1e9, -1e9);
-    let ground = Wall { shape: carom::geometry::Parallelogram { center: at, ..floor(10.0).shape }, color: None };
+    let ground = Wall { shape: carom::geometry::Parallelogram { center: at, ..floor(2.0 * 10.0).shape }, color: None };
     let mut run = start(&scene(G, PAPER_LAW, vec![ground], vec![still(at + DVec3::Y * 3.0)]), method, 0.001, 1e-3);
     go(&mut run, 20.0)?;
     let gap = run.at(20.0).x[0].y - at.y - 0.5;
@@ -242,14 +238,15 @@ fn far_away(method: Method) -> Cell {
 }
 
 fn inelastic(method: Method) -> Cell {
-    let mut run = start(&scene(G, law(0.0, 0.1), vec![floor(10.0)], vec![still(DVec3::Y * 3.0)]), method, 0.01, 1e-3);
+    let mut run =
+        start(&scene(G, law(0.0, 0.1), vec![floor(2.0 * 10.0)], vec![still(DVec3::Y * 3.0)]), method, 0.01, 1e-3);
     go(&mut run, 5.0)?;
     let (found, gap) = (impacts(&mut run), run.at(5.0).x[0].y - 0.5);
     must(found == 1 && gap.abs() < 1e-3, format!("{found} impact, gap {gap:.0e} m"))
 }
 
 fn elastic(method: Method) -> Cell {
-    let mut run = start(&scene(G, ELASTIC, vec![floor(10.0)], vec![still(DVec3::Y * 5.5)]), method, 0.01, 1e-9);
+    let mut run = start(&scene(G, ELASTIC, vec![floor(2.0 * 10.0)], vec![still(DVec3::Y * 5.5)]), method, 0.01, 1e-9);
     // √(10/9.8) s down, then up and down: ten impacts in 19 of these.
     let fall = (10.0_f64 / 9.8).sqrt();
     go(&mut run, 19.5 * fall)?;
@@ -269,7 +266,7 @@ fn elastic(method: Method) -> Cell {
 fn crowd(height: f64, law: ContactLaw) -> Scene {
     let at = |k: i32| f64::from(k) * 1.1 - 24.2;
     let place = |k: i32| dvec3(at(k / 45), 0.5 + height, at(k % 45));
-    scene(G, law, vec![floor(50.0)], (0..2025).map(|k| still(place(k))).collect())
+    scene(G, law, vec![floor(2.0 * 50.0)], (0..2025).map(|k| still(place(k))).collect())
 }
 
 fn crowd_of_impacts(method: Method) -> Cell {

@@ -5,10 +5,10 @@
 
 mod support;
 
-use carom::physics::{Class, ContactLaw, Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::physics::{Class, ContactLaw, Method, Scene, Settings, Simulation};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, changed, scene, sphere, wall};
+use support::{ELASTIC, G, changed, floor, go, scene, sphere, wall};
 
 /// One rounding, relative.
 const EPS: f64 = f64::EPSILON;
@@ -17,15 +17,6 @@ fn start(scene: &Scene, method: Method) -> Simulation {
     let mut run = Simulation::new(scene, Settings { method, dt: 1e3, tolerance: 1e-3 });
     run.record_events(true);
     run
-}
-
-/// Runs to `until` (s) within a hundred million events; returns the state then.
-fn go(run: &mut Simulation, until: f64) -> State {
-    match run.advance(Until::Time(until), 100_000_000) {
-        Progress::Reached => run.at(until),
-        Progress::Yielded => panic!("a hundred million events and still at {} s", run.time()),
-        Progress::Stalled(stall) => panic!("{}", stall.reason),
-    }
 }
 
 /// Everything has this restitution; nothing rubs, nothing rests before its time.
@@ -40,11 +31,6 @@ fn ball(x: f64, v: f64, mass: f64) -> Sphere {
 /// A wall across the x axis.
 fn stop(x: f64) -> Wall {
     wall(DVec3::X * x, DVec3::Y * 10.0, DVec3::Z * 10.0)
-}
-
-/// A floor of 100 m × 100 m at y = 0.
-fn floor() -> Wall {
-    wall(DVec3::ZERO, DVec3::X * 100.0, DVec3::NEG_Z * 100.0)
 }
 
 /// Points in a row between walls, the impact law one by one: what spheres of radius 0.5 m do on a line, their widths
@@ -218,7 +204,7 @@ fn nothing_is_taken_where_nothing_is_lossy() {
     for (method, gap) in [Method::Exact, Method::Swept].into_iter().flat_map(|m| [0.1, 1e-9, 0.0].map(|gap| (m, gap))) {
         let light = sphere(DVec3::Y * (0.5 + gap), DVec3::ZERO, 0.5);
         let heavy = Sphere { mass: 1e6, ..sphere(DVec3::Y * 3.0, DVec3::ZERO, 0.5) };
-        let mut run = start(&scene(G, ELASTIC, vec![floor()], vec![light, heavy]), method);
+        let mut run = start(&scene(G, ELASTIC, vec![floor(100.0)], vec![light, heavy]), method);
         for t in [0.5, 0.6, 1.0, 1.5, 2.0] {
             let state = go(&mut run, t);
             let error = state.energy(run.model()) / run.initial_energy() - 1.0;
@@ -361,9 +347,9 @@ fn of_all_kinds() -> Vec<(Scene, f64)> {
     let rim = sphere(dvec3(0.1, 1.4, 0.5), DVec3::NEG_Y, 0.5);
     vec![
         (thrown.scene(), 2.0),
-        (scene(G, smooth(0.9), vec![floor()], vec![light.clone(), heavy.clone()]), 1.5),
-        (scene(G, ELASTIC, vec![floor()], vec![light, heavy]), 1.0),
-        (scene(G, smooth(0.25), vec![shelf, floor()], vec![rim]), 1.5),
+        (scene(G, smooth(0.9), vec![floor(100.0)], vec![light.clone(), heavy.clone()]), 1.5),
+        (scene(G, ELASTIC, vec![floor(100.0)], vec![light, heavy]), 1.0),
+        (scene(G, smooth(0.25), vec![shelf, floor(100.0)], vec![rim]), 1.5),
         (row(0.999, &[0.0, 1.0, f64::INFINITY], &[0.0, -1.0], &[1.0, 1e4]).0, 2.0),
     ]
 }

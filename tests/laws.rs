@@ -4,12 +4,7 @@ mod support;
 
 use carom::physics::{Simulation, Until};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, gas, lattice, paper, paper_scene, room, run_to, scene, sphere, wall};
-
-/// A floor at y = 0.
-fn floor() -> carom::scene::Wall {
-    wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::NEG_Z * 20.0)
-}
+use support::{ELASTIC, G, PAPER_LAW, floor, gas, lattice, paper, paper_scene, room, run_to, scene, sphere, wall};
 
 #[test]
 fn a_drop_in_euler_frames_falls_by_g_t_times_t_plus_dt_over_two() {
@@ -58,7 +53,7 @@ fn flight_loses_half_g_squared_dt_joules_per_second_and_kilogram() {
 fn an_elastic_bounce_loses_g_dt_u() {
     // Ten bounces from 5 m at u = √(2 g h) = 9.9 m/s: from 53.9 J to 44.3 J (dt 0.01), 52.94 J (dt 0.001).
     for dt in [0.01, 0.001] {
-        let walls = vec![floor()];
+        let walls = vec![floor(20.0)];
         let body = sphere(DVec3::Y * 5.5, DVec3::ZERO, 0.5);
         let mut run = Simulation::new(&scene(G, ELASTIC, walls, vec![body]), paper(dt, 1e-3));
         while run.tallies().impacts < 10 {

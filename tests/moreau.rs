@@ -5,7 +5,7 @@ mod support;
 use carom::physics::{Class, Contact, Kind, Method, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, changed, gas, lattice, moved, room, run_to, scene, sphere, wall};
+use support::{ELASTIC, G, PAPER_LAW, changed, floor, gas, lattice, moved, pyramid, room, run_to, scene, sphere, wall};
 
 /// Impacts lose half of the approach speed.
 const HALF: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, ..PAPER_LAW };
@@ -24,27 +24,9 @@ fn still(x: DVec3) -> Sphere {
     sphere(x, DVec3::ZERO, 0.5)
 }
 
-fn floor() -> Wall {
-    wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::NEG_Z * 20.0)
-}
-
 /// A tube of square section, as wide as a sphere, and its floor.
 fn tube() -> Vec<Wall> {
     room(dvec3(-0.5, 0.0, -0.5), dvec3(0.5, 30.0, 0.5))
-}
-
-/// A pyramid of so many layers between four walls, its spheres apart by `gap`, m.
-fn pyramid(layers: u8, gap: f64) -> Scene {
-    let (half, mut spheres) = (0.5 * f64::from(layers), Vec::new());
-    for layer in 0..layers {
-        let (side, height) = (layers - layer, f64::from(layer) * (0.5_f64.sqrt() + gap));
-        for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
-            let at = |k: u8| (f64::from(k) - f64::from(side - 1) * 0.5) * (1.0 + gap);
-            spheres.push(still(dvec3(at(i), 0.5 + gap + height, at(j))));
-        }
-    }
-    let width = half * (1.0 + gap);
-    scene(G, HALF, room(dvec3(-width, 0.0, -width), dvec3(width, 20.0, width)), spheres)
 }
 
 /// Σ penetration² over all pairs and walls, m², and the deepest penetration, m.
@@ -83,7 +65,7 @@ fn a_drop_falls_by_g_t_times_t_plus_dt_over_two() {
 #[test]
 fn an_impact_leaves_with_e_times_its_approach_speed_and_its_share_of_the_tangential_one() {
     let bodies = vec![sphere(DVec3::Y * 3.0, dvec3(1.0, 0.0, 0.0), 0.5)];
-    let mut run = start(&scene(G, PAPER_LAW, vec![floor()], bodies), 0.001, 1e-3);
+    let mut run = start(&scene(G, PAPER_LAW, vec![floor(20.0)], bodies), 0.001, 1e-3);
     run_to(&mut run, 3.0, u64::MAX);
     let events = run.take_events();
     let impacts = of_class(&events, Class::Collide);
@@ -150,7 +132,7 @@ fn no_impact_of_a_gas_creates_energy_whatever_a_frame_holds() {
 #[test]
 fn a_column_of_ten_carries_its_weight_contact_by_contact() {
     let spheres = (0..10).map(|k| still(dvec3(0.0, 0.5 + f64::from(k), 0.0))).collect();
-    let mut run = start(&scene(G, PAPER_LAW, vec![floor()], spheres), 0.01, 0.0);
+    let mut run = start(&scene(G, PAPER_LAW, vec![floor(20.0)], spheres), 0.01, 0.0);
     run_to(&mut run, 10.0, u64::MAX);
     assert_eq!(run.contacts().len(), 10);
     for contact in run.contacts() {
@@ -197,7 +179,7 @@ fn a_heavy_sphere_on_light_ones_does_not_crush_them() {
 
 #[test]
 fn a_pyramid_with_gaps_settles_and_then_does_not_drift() {
-    let scene = pyramid(4, 1e-4);
+    let scene = pyramid(4, 1e-4, HALF);
     let mut run = start(&scene, 0.01, 1e-8);
     run_to(&mut run, 20.0, u64::MAX);
     let settled = run.state();
@@ -236,7 +218,7 @@ fn inelastic_666_settles_without_overlap_or_gap_in_counted_work() {
 #[test]
 fn a_solver_that_has_not_converged_says_so() {
     // Eight layers have a thousand contacts, too many for the direct solver, and sweeping cannot lift such a mass.
-    let scene = pyramid(8, 0.0);
+    let scene = pyramid(8, 0.0, HALF);
     let heavy = changed(&scene, |draft| draft.spheres.last_mut().expect("a top").mass = 1e8);
     let mut run = start(&heavy, 0.01, 1e-3);
     run_to(&mut run, 0.05, u64::MAX);
@@ -262,7 +244,7 @@ fn a_sphere_that_slides_off_its_table_rests_once_and_is_released_once() {
 #[test]
 fn an_impact_without_rebound_is_one_event_and_then_rests() {
     let law = ContactLaw { restitution: 0.0, wall_restitution: 0.0, ..PAPER_LAW };
-    let mut run = start(&scene(G, law, vec![floor()], vec![still(DVec3::Y * 3.0)]), 0.01, 1e-3);
+    let mut run = start(&scene(G, law, vec![floor(20.0)], vec![still(DVec3::Y * 3.0)]), 0.01, 1e-3);
     run_to(&mut run, 2.0, u64::MAX);
     let events = run.take_events();
     let classes: Vec<_> = events.iter().map(|event| event.class).collect();
@@ -296,7 +278,7 @@ fn slices_of_any_size_and_a_continued_run_make_the_same_bits() {
 
 #[test]
 fn a_frame_is_a_whole_dt_and_is_read_on_the_straight_line_between_its_ends() {
-    let scene = pyramid(3, 1e-3);
+    let scene = pyramid(3, 1e-3, HALF);
     let mut run = start(&scene, 0.01, 1e-6);
     for _ in 0..100 {
         let before = run.state();
@@ -314,7 +296,8 @@ fn a_frame_is_a_whole_dt_and_is_read_on_the_straight_line_between_its_ends() {
 #[test]
 fn a_frame_in_which_everything_may_meet_is_refused_by_count_and_names_dt() {
     // 9261 spheres that fall 490 m in a frame: 4e7 pairs, a gigabyte of them.
-    let crowd = scene(G, HALF, vec![floor()], lattice(21, 2.5, DVec3::ZERO, 0.5));
+    let below = wall(DVec3::NEG_Y * 25.5, DVec3::X * 20.0, DVec3::NEG_Z * 20.0);
+    let crowd = scene(G, HALF, vec![below], lattice(21, 2.5, DVec3::ZERO, 0.5));
     let stalled = |work: u64| {
         let mut run = start(&crowd, 10.0, 1e-3);
         let stall = run_to(&mut run, 10.0, work).expect("a stall");

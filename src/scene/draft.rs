@@ -97,18 +97,18 @@ mod tests {
             refusal(|draft| draft.spheres[0].color = Some([0.0, 2.0, 0.0])),
         ];
         let places = [
-            "spheres[1].mass: -1.0 is refused",
+            "spheres[1].mass: -1 is refused",
             "spheres[1].x[1]: NaN is refused",
             "spheres[0]: sphere 0 (spheres[0]) overlaps sphere 1 (spheres[1])",
             "spheres[0]: sphere 0 (spheres[0]) overlaps wall 0",
             "walls[0]: s1 and s2 are parallel",
             "contact.restitution: 1.5 is refused",
-            "solver.dt: 0.0 is refused",
+            "solver.dt: 0 is refused",
             "duration: inf is refused",
             "gravity[2]: ",
             "view: along x, min",
             "name: the character U+001B",
-            "spheres[0].color[1]: 2.0 is refused",
+            "spheres[0].color[1]: 2 is refused",
         ];
         for (said, place) in said.iter().zip(places) {
             assert!(said.starts_with(&format!("a scene built in code: {place}")), "{said}");

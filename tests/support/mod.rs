@@ -79,6 +79,35 @@ pub(crate) fn run_to(run: &mut Simulation, t: f64, work: u64) -> Option<Stall> {
     }
 }
 
+/// The state at `until` (s), which is reached within a hundred million units of work.
+pub(crate) fn go(run: &mut Simulation, until: f64) -> State {
+    let mut slices = 0..1000;
+    match run.run_to(until, |_| slices.next().map(|_| 100_000)) {
+        Progress::Reached => run.at(until),
+        Progress::Yielded => panic!("a hundred million units of work and still at {} s", run.time()),
+        Progress::Stalled(stall) => panic!("{}", stall.reason),
+    }
+}
+
+/// A square floor of this width (m) at y = 0, its centre at the origin.
+pub(crate) fn floor(width: f64) -> Wall {
+    wall(DVec3::ZERO, DVec3::X * width, DVec3::NEG_Z * width)
+}
+
+/// A pyramid of so many square layers of spheres of radius 0.5 m, apart by `gap` (m), the lowest just between four walls.
+pub(crate) fn pyramid(layers: u8, gap: f64, contact: ContactLaw) -> Scene {
+    let (half, mut spheres) = (0.5 * f64::from(layers), Vec::new());
+    for layer in 0..layers {
+        let (side, height) = (layers - layer, f64::from(layer) * (0.5_f64.sqrt() + gap));
+        for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+            let at = |k: u8| (f64::from(k) - f64::from(side - 1) * 0.5) * (1.0 + gap);
+            spheres.push(sphere(dvec3(at(i), 0.5 + gap + height, at(j)), DVec3::ZERO, 0.5));
+        }
+    }
+    let width = half * (1.0 + gap);
+    scene(G, contact, room(dvec3(-width, 0.0, -width), dvec3(width, 20.0, width)), spheres)
+}
+
 /// `n`³ spheres of mass 1 kg on a cubic lattice about the origin, all with the same velocity.
 pub(crate) fn lattice(n: usize, spacing: f64, v: DVec3, radius: f64) -> Vec<Sphere> {
     let at = |k: usize| (k as f64 - 0.5 * (n - 1) as f64) * spacing;
