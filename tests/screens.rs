@@ -18,8 +18,14 @@ use ratatui::{
 
 #[path = "screens/alarm.rs"]
 mod alarm;
+#[path = "screens/app.rs"]
+mod app;
+#[path = "screens/bounds.rs"]
+mod bounds;
 #[path = "screens/comparison.rs"]
 mod comparison;
+#[path = "screens/frames.rs"]
+mod frames;
 #[path = "support/stages.rs"]
 mod stages;
 

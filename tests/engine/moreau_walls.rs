@@ -1,15 +1,11 @@
 //! Walls that meet, by velocity-level time-stepping: no seam is felt, no impact counts twice, nothing gets out.
 
-#[path = "support/random.rs"]
-mod random;
-mod support;
-
+use crate::random::Random;
+use crate::support::{G, PAPER_LAW, room, run_to, scene, sphere, wall};
 use carom::geometry::Parallelogram;
 use carom::physics::{Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use random::Random;
-use support::{G, PAPER_LAW, room, run_to, scene, sphere, wall};
 
 fn start(scene: &Scene, dt: f64) -> Simulation {
     let mut run = Simulation::new(scene, Settings { method: Method::Moreau, dt, tolerance: 1e-3 });

@@ -1,14 +1,12 @@
 //! Is the judge just? It finds nothing in runs that are right, and each thing that is made wrong on purpose.
 
-mod support;
-
 use std::process::Command;
 
+use crate::support::{ELASTIC, G, PAPER_LAW, changed, gas, paper, paper_scene, room, scene, sphere, wall};
 use carom::audit::{Bodies, Fault, Frame, Judge, Watch};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, changed, gas, paper, paper_scene, room, scene, sphere, wall};
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
 

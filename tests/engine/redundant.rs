@@ -3,12 +3,9 @@
 //! The oracle is the definition itself: u = u₀ + M⁻¹ Jᵀ λ, λ ≥ 0, J u + c ≥ 0, and a row that pushes is closed; and for
 //! single spheres the nearest point of all those that satisfy J u + c ≥ 0, found by trying every set of rows.
 
-#[path = "support/random.rs"]
-mod random;
-
+use crate::random::Random;
 use carom::physics::support::{Row, Solution, solve};
 use glam::{DVec3, dvec3};
-use random::Random;
 
 /// A problem: inverse masses, u₀, rows.
 #[derive(Debug, Clone)]

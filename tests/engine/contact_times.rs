@@ -1,14 +1,11 @@
 //! When do bodies next touch? `contact_time` against an oracle that shares no code with it: fine sampling of the gap
 //! with conservative steps, and a ternary search wherever the samples have a minimum.
 
-#[path = "support/random.rs"]
-mod random;
-
+use crate::random::Random;
 use carom::geometry::Parallelogram;
 use carom::physics::contact_time::{Part, Path, sphere_sphere, sphere_wall, touch};
 use carom::physics::model::Face;
 use glam::DVec3;
-use random::Random;
 
 /// Gap of a sphere and a parallelogram by the normal equations of min |q − u s1 − w s2|² over the box, then its edges.
 fn wall_gap(wall: &Parallelogram, x: DVec3, r: f64) -> f64 {

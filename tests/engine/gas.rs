@@ -1,12 +1,10 @@
 //! Many spheres by the event-driven method: cells against all pairs, energy, slices, and the collision rate of a gas.
 
-mod support;
-
 use std::f64::consts::PI;
 
+use crate::support::{ELASTIC, G, changed, gas, run_to, sphere};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, changed, gas, run_to, sphere};
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.01, tolerance: 1e-3 };
 

@@ -1,10 +1,8 @@
 //! The numbers that three independent codes found for the paper's scenes. Closed forms: `exact_laws`; bits, symmetry and
 //! conservation: `exact_repeat`.
 
-mod support;
-
+use crate::support::paper_scene;
 use carom::physics::{Class, Contact, Method, Progress, Scene, Settings, Simulation, Until};
-use support::paper_scene;
 
 const EXACT: Settings = Settings { method: Method::Exact, dt: 0.01, tolerance: 1e-3 };
 

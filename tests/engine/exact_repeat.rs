@@ -1,14 +1,10 @@
 //! What the event-driven method keeps: bits however it is sliced and watched, the way back, symmetry, what is conserved.
 
-#[path = "support/sums.rs"]
-mod sums;
-mod support;
-
+use crate::sums::Sum;
+use crate::support::{self, ELASTIC, changed, gas, moved, paper_scene, run_to};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use sums::Sum;
-use support::{ELASTIC, changed, gas, moved, paper_scene, run_to};
 
 fn exact(dt: f64) -> Settings {
     Settings { method: Method::Exact, dt, tolerance: 1e-3 }

@@ -1,20 +1,15 @@
 //! Laws over as many impacts as the demands name: ten million of a gas, three million of two balls at a wall.
 //!
-//! `CAROM_LONG=1 cargo test --release --test long` asks for all of them, which takes half a minute; without it, for a
+//! `CAROM_LONG=1 cargo test --release --test engine long::` asks for all of them, which takes half a minute; without it, for a
 //! tenth of the gas and of the balls.
 
 // The numbers go to stdout: somebody asked for them.
-#![allow(clippy::print_stdout)]
 
-#[path = "support/sums.rs"]
-mod sums;
-mod support;
-
+use crate::sums::Sum;
+use crate::support::{ELASTIC, gas, run_to, scene, sphere, wall};
 use carom::physics::{Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::Sphere;
 use glam::DVec3;
-use sums::Sum;
-use support::{ELASTIC, gas, run_to, scene, sphere, wall};
 
 fn all() -> bool {
     std::env::var_os("CAROM_LONG").is_some_and(|value| value != "0")

@@ -1,11 +1,11 @@
 //! Crowds by velocity-level time-stepping: what it promises of drops, impacts, rest, piles, and of its own solver.
 
-mod support;
-
+use crate::support::{
+    ELASTIC, G, PAPER_LAW, changed, floor, gas, lattice, moved, pyramid, room, run_to, scene, sphere, wall,
+};
 use carom::physics::{Class, Contact, Kind, Method, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, changed, floor, gas, lattice, moved, pyramid, room, run_to, scene, sphere, wall};
 
 /// Impacts lose half of the approach speed.
 const HALF: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, ..PAPER_LAW };

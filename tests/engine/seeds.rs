@@ -1,12 +1,10 @@
 //! What the owner asked for: the source paper's sentences and formulas, a test each.
 
-mod support;
-
+use crate::support::{self, ELASTIC, G, PAPER_LAW, changed, paper, run_to, scene, sphere, wall};
 use carom::physics::model::Face;
 use carom::physics::overlap::{pair_touch, wall_touch};
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Simulation, Until, describe};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, changed, paper, run_to, scene, sphere, wall};
 
 /// A floor of 20 m × 20 m at y = 0.
 fn floor() -> carom::scene::Wall {

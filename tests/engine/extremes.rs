@@ -1,17 +1,14 @@
 //! What each method does at the extremes: a table, a line per extreme and a column per method.
 //!
-//! `cargo test --test extremes -- --nocapture` prints it. Each cell says what was found; what must hold for it, and of
+//! `cargo test --test engine extremes:: -- --nocapture` prints it. Each cell says what was found; what must hold for it, and of
 //! `paper` what fails and how, is checked while it is filled in.
 
 // The table goes to whoever asks for it with `--nocapture`.
-#![allow(clippy::print_stdout)]
 
-mod support;
-
+use crate::support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, room, run_to, scene, sphere, wall};
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, room, run_to, scene, sphere, wall};
 
 /// What is found, or what must not be.
 type Cell = Result<String, String>;

@@ -1,11 +1,9 @@
 //! Closed forms that the event-driven method must meet to rounding: drops, bounces, impacts, chains, edges, slopes.
 
-mod support;
-
+use crate::support::{ELASTIC, G, floor, go, scene, sphere, wall};
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, floor, go, scene, sphere, wall};
 
 /// One rounding, relative.
 const EPS: f64 = f64::EPSILON;

@@ -1,12 +1,10 @@
 //! What a crowd costs: as much as happens in it, wherever its spheres are and however small. Work is counted, never timed.
 
-mod support;
-
+use crate::support::{self, ELASTIC, lattice, room, scene, sphere};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::random::SplitMix64;
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, lattice, room, scene, sphere};
 
 /// What a run did and what it cost.
 struct Cost {

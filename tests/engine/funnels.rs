@@ -3,15 +3,11 @@
 //! The right answer is statics: what lies at the bottom of a pit stays there, at no speed, and touches without overlap;
 //! what just fits into a tube slides straight on.
 
-#[path = "support/random.rs"]
-mod random;
-mod support;
-
+use crate::random::Random;
+use crate::support::{G, PAPER_LAW, scene, sphere, wall};
 use carom::physics::{Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::{ContactLaw, Wall};
 use glam::{DVec3, dvec3};
-use random::Random;
-use support::{G, PAPER_LAW, scene, sphere, wall};
 
 const METHODS: [Method; 2] = [Method::Exact, Method::Swept];
 

@@ -1,10 +1,10 @@
 //! Closed forms and conservation laws.
 
-mod support;
-
+use crate::support::{
+    ELASTIC, G, PAPER_LAW, floor, gas, lattice, paper, paper_scene, room, run_to, scene, sphere, wall,
+};
 use carom::physics::{Simulation, Until};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, PAPER_LAW, floor, gas, lattice, paper, paper_scene, room, run_to, scene, sphere, wall};
 
 #[test]
 fn a_drop_in_euler_frames_falls_by_g_t_times_t_plus_dt_over_two() {

@@ -1,16 +1,12 @@
 //! What `swept` promises: nothing tunnels, nothing goes deeper than the tolerance, dt leaves no trace, nothing stalls.
 
-#[path = "support/random.rs"]
-mod random;
-mod support;
-
+use crate::random::Random;
+use crate::support::{ELASTIC, G, PAPER_LAW, gas, paper, paper_scene, room, run_to, scene, sphere, wall};
 use carom::physics::{Class, Contact, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use random::Random;
-use support::{ELASTIC, G, PAPER_LAW, gas, paper, paper_scene, room, run_to, scene, sphere, wall};
 
 fn swept(dt: f64, tolerance: f64) -> Settings {
     Settings { method: Method::Swept, dt, tolerance }

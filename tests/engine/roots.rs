@@ -1,11 +1,8 @@
 //! Our roots of quartics against those of a crate that others keep: polycool (Yuksel's method).
 
-#[path = "support/random.rs"]
-mod random;
-
+use crate::random::Random;
 use carom::roots::{in_interval, monotone, slope, value};
 use polycool::Quartic;
-use random::Random;
 
 /// Σ |cᵢ| |t|ⁱ: what the rounding of the value at `t` is relative to.
 fn size(c: &[f64], t: f64) -> f64 {

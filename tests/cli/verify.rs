@@ -1,8 +1,6 @@
 //! Does the built binary meet the known results, and say so in a table?
 
-#[path = "support/watch.rs"]
-mod watch;
-
+use crate::watch;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 

@@ -1,14 +1,12 @@
 //! The impact law is not cut short: a chain of impacts that ends is computed to its end, and what a rule takes away is
 //! what the bounces that it stands for would have taken.
 //!
-//! `CAROM_LONG=1 cargo test --release --test impact_law` counts six digits of π at one instant too.
+//! `CAROM_LONG=1 cargo test --release --test engine impact_law::` counts six digits of π at one instant too.
 
-mod support;
-
+use crate::support::{ELASTIC, G, changed, floor, go, scene, sphere, wall};
 use carom::physics::{Class, ContactLaw, Method, Scene, Settings, Simulation};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
-use support::{ELASTIC, G, changed, floor, go, scene, sphere, wall};
 
 /// One rounding, relative.
 const EPS: f64 = f64::EPSILON;

@@ -1,7 +1,6 @@
 //! Small scenes on which a method was once wrong, kept as files in `tests/cases`, each with what is right and why.
 
-mod support;
-
+use crate::support;
 use carom::geometry::Parallelogram;
 use carom::physics::{Class, Method, Scene, Settings, Simulation, State};
 use glam::{DVec3, dvec3};

@@ -1,14 +1,10 @@
 //! What rests stays at rest, and what slides follows its closed form, in the methods that know islands.
 
-#[path = "support/random.rs"]
-mod random;
-mod support;
-
+use crate::random::Random;
+use crate::support::{self, ELASTIC, G, PAPER_LAW, go, pyramid, room, scene, sphere, wall};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
-use random::Random;
-use support::{ELASTIC, G, PAPER_LAW, go, pyramid, room, scene, sphere, wall};
 
 /// Impacts lose half of the approach speed.
 const HALF: ContactLaw = ContactLaw { restitution: 0.5, wall_restitution: 0.5, ..PAPER_LAW };

@@ -1,10 +1,8 @@
 //! What each method does in the source paper's scenes, against the reference found by three independent codes.
 
-mod support;
-
+use crate::support::{ELASTIC, paper, paper_scene, run_to, scene, sphere};
 use carom::physics::{Class, Contact, Method, Progress, Settings, Simulation, Stall, State, Until};
 use glam::DVec3;
-use support::{ELASTIC, paper, paper_scene, run_to, scene, sphere};
 
 /// First impact of each scene, s (reference).
 const FIRST_IMPACT: [f64; 5] = [1.355262, 0.225877, 0.050247, 0.666667, 0.8];
