@@ -281,11 +281,10 @@ fn typed(text: &mut String, key: Key) -> Typed {
     match (key.code, key.typed()) {
         (Code::Enter, _) => return Typed::Order(std::mem::take(text)),
         (Code::Escape, _) => return Typed::Nothing,
-        (Code::Backspace, _) => {
-            if text.pop().is_none() {
-                return Typed::Nothing;
-            }
-        }
+        (Code::Backspace, _) => match text.pop() {
+            Some(_) => {}
+            None => return Typed::Nothing,
+        },
         (Code::Char('u'), None) => text.clear(),
         (_, Some(c)) if text.len() < PROMPT => text.push(c),
         _ => {}

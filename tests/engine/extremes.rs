@@ -3,8 +3,6 @@
 //! `cargo test --test engine extremes:: -- --nocapture` prints it. Each cell says what was found; what must hold for it, and of
 //! `paper` what fails and how, is checked while it is filled in.
 
-// The table goes to whoever asks for it with `--nocapture`.
-
 use crate::support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, room, run_to, scene, sphere, wall};
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};

@@ -3,8 +3,6 @@
 //! `CAROM_LONG=1 cargo test --release --test engine long::` asks for all of them, which takes half a minute; without it, for a
 //! tenth of the gas and of the balls.
 
-// The numbers go to stdout: somebody asked for them.
-
 use crate::sums::Sum;
 use crate::support::{ELASTIC, gas, run_to, scene, sphere, wall};
 use carom::physics::{Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};

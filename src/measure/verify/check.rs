@@ -24,5 +24,5 @@ impl Check {
     }
 }
 
-/// What became of a check: its place in [`CHECKS`], and its rows or why there are none.
+/// What became of a check: its place in [`CHECKS`](super::CHECKS), and its rows or why there are none.
 pub type Outcome = (usize, Result<Vec<Row>, Trouble>);
