@@ -22,6 +22,21 @@ fn whole(k: usize) -> State {
 }
 
 #[test]
+fn a_run_stops_where_it_is_told_to_and_goes_on_from_there() {
+    for (k, until) in UNTIL.into_iter().enumerate() {
+        let (mut run, mut slices) = (start(k), 0);
+        let stopped = run.run_to(until, |_| {
+            slices += 1;
+            (slices <= 5).then_some(10)
+        });
+        assert_eq!((stopped, slices), (Progress::Yielded, 6), "scene {k}");
+        assert!(run.time() < until, "scene {k} is at {} s", run.time());
+        assert_eq!(run.run_to(until, |_| Some(1000)), Progress::Reached);
+        assert_eq!(run.state().hash(), whole(k).hash(), "scene {k}");
+    }
+}
+
+#[test]
 fn slices_of_any_size_make_the_same_run() {
     for (k, until) in UNTIL.into_iter().enumerate() {
         let expected = whole(k);

@@ -99,7 +99,7 @@ mod tests {
         let places = [
             "spheres[1].mass: -1 is refused",
             "spheres[1].x[1]: NaN is refused",
-            "spheres[0]: sphere 0 (spheres[0]) overlaps sphere 1 (spheres[1])",
+            "spheres[1]: sphere 0 (spheres[0]) overlaps sphere 1 (spheres[1])",
             "spheres[0]: sphere 0 (spheres[0]) overlaps wall 0",
             "walls[0]: s1 and s2 are parallel",
             "contact.restitution: 1.5 is refused",

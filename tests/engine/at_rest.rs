@@ -322,7 +322,7 @@ fn a_support_that_changes_within_a_frame_has_given_the_sum_of_its_parts() {
 
 #[test]
 fn the_mirror_symmetric_scene_rolls_on_to_its_end_without_gaining_energy_or_going_deep() {
-    // After 7 s it ends in an unstable mirror equilibrium, which is nobody's reference; but that energy is only lost, and
+    // After 7 s it ends in an unstable mirror equilibrium, which is no reference; but that energy is only lost, and
     // that they stay in the room, is demanded.
     let scene = support::paper_scene(4);
     let mut run = run_of(Method::Exact, &scene);

@@ -246,7 +246,7 @@ fn no_unit_of_length_or_time_changes_what_a_crowd_costs() {
     };
     let expected = scaled(1.0, 1.0);
     // powers of two are exact, so that every bit stays
-    for (length, time) in [(1_048_576.0, 1.0), (1.0 / 1_048_576.0, 1024.0), (0.5_f64.powi(200), 2_f64.powi(30))] {
+    for (length, time) in [(1_048_576.0, 1.0), (1.0 / 1_048_576.0, 1024.0), (0.5_f64.powi(90), 2_f64.powi(30))] {
         assert!(scaled(length, time) == expected, "{length} m, {time} s");
     }
 }

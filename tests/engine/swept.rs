@@ -157,7 +157,8 @@ fn an_overlap_that_opens_is_no_impact_until_it_closes_again() {
 fn a_sphere_that_cannot_leave_its_overlap_rests_where_it_is() {
     // 2e-3 r deep in the floor and rising at a speed that ends before it is out.
     let floor = vec![wall(DVec3::ZERO, dvec3(10.0, 0.0, 0.0), dvec3(0.0, 0.0, -10.0))];
-    let deep = scene(G, PAPER_LAW, floor, vec![sphere(DVec3::Y * 0.499, DVec3::Y * 0.05, 0.5)]);
+    let lying = scene(G, PAPER_LAW, floor, vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5)]);
+    let deep = lying.moved(&[DVec3::Y * 0.499], &[DVec3::Y * 0.05]).expect("numbers");
     let mut run = Simulation::new(&deep, swept(0.1, 1e-9));
     assert_eq!(run_to(&mut run, 1.0, u64::MAX), None);
     let top = 0.499 + 0.05 * 0.05 / 19.6;
