@@ -14,7 +14,7 @@ pub enum Ending {
     Done,
     /// It could not go on.
     Stalled(Stall),
-    /// `keep_on` said no.
+    /// `keep_on` returned false.
     Stopped,
 }
 

@@ -19,11 +19,11 @@ const SIGPIPE: u8 = 13;
 /// How a command ended other than well.
 #[derive(Debug)]
 pub(super) enum Failure {
-    /// What clap has to say: wrong usage, or the help and version that were asked for.
+    /// Wrong usage, in the words of clap; or the help and version that were asked for.
     Clap(clap::Error),
     /// The work could not be done: one full sentence.
     Failed(String),
-    /// It was said already, line by line.
+    /// The work could not be done, and the reasons are printed already.
     Told,
     /// The options are each right, but not together: one full sentence.
     Usage(String),
@@ -43,7 +43,7 @@ impl From<io::Error> for Failure {
 }
 
 impl Failure {
-    /// Says it, and tells the exit code.
+    /// Prints the line that belongs to it on stderr, if one does; the exit code.
     pub(super) fn report(self) -> ExitCode {
         match self {
             Failure::Clap(error) => explain(error),

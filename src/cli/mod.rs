@@ -1,4 +1,5 @@
-//! The command line: arguments turned into plain values, and which wing runs.
+//! The command line: arguments turned into plain values, and the command that is run with them. Begin with `arguments`,
+//! then the file of a command.
 //!
 //! | file | owns |
 //! |---|---|

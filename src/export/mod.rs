@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `table` | what a row is, and a table of them under way |
 //! | `rows` | a state, an event |
-//! | `trade`, `note` | a setting measured on a scene, and what speaks against its figures |
+//! | `trade`, `note` | a setting measured on a scene, and reasons to doubt its figures |
 
 mod note;
 mod rows;

@@ -1,10 +1,10 @@
-//! What speaks against the figures of a row of the trade.
+//! Reasons to doubt the figures of a row of the trade.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What speaks against a row's figures. A cell holds its phrases, joined by `; `.
+/// Reasons to doubt a row's figures. A cell holds its phrases, joined by `; `.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
 pub struct Note {

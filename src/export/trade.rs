@@ -41,7 +41,7 @@ pub struct TradeRow {
     pub cpu_per_s: Option<f64>,
     /// (worst − best) / best of these.
     pub cpu_spread: Option<f64>,
-    /// What speaks against these figures; empty if nothing does.
+    /// Reasons to doubt these figures; empty if there are none.
     pub note: Note,
 }
 

@@ -46,7 +46,7 @@ pub struct Choice {
 /// Why there is no [`Choice`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Miss {
-    /// The caller's [`GoOn`] said no.
+    /// The caller's [`GoOn`] returned false.
     Interrupted,
     /// No setting meets it: a sentence.
     Nothing(String),
@@ -63,7 +63,7 @@ impl From<Interrupted> for Miss {
 /// not use are those of `fallback`.
 ///
 /// # Errors
-/// If nothing that was tried meets it, or `go_on` says no.
+/// If nothing that was tried meets it, or `go_on` returns false.
 pub fn choose(
     scene: &Scene,
     (wanted, until): (f64, f64),

@@ -35,7 +35,7 @@ pub struct Cost {
     pub cpu_per_s: f64,
     /// (worst − best) / best; none if it was timed once.
     pub spread: Option<f64>,
-    /// What speaks against these figures, a phrase each.
+    /// Reasons to doubt these figures, a phrase each.
     pub doubts: Vec<&'static str>,
 }
 
@@ -43,7 +43,7 @@ pub struct Cost {
 /// anything recorded or read.
 ///
 /// # Errors
-/// If `go_on` says no.
+/// If `go_on` returns false.
 pub fn cost(scene: &Scene, settings: Settings, until: f64, go_on: GoOn) -> Result<Cost, Interrupted> {
     let fresh = Simulation::new(scene, settings);
     let (first, simulated) = time(&fresh, until, 1, go_on)?;

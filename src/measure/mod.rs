@@ -12,7 +12,7 @@
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
 //! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
 //!
-//! Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it says no.
+//! Begin with `trade`, then `sample` and `yardstick`. Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it returns false.
 //! Everything but times repeats to the bit.
 //!
 //! | file | owns |
@@ -20,7 +20,8 @@
 //! | `sample` | a run read at fixed instants |
 //! | `interrupt` | how what takes long is told to stop |
 //! | `reference` | a run kept at fixed instants, for others to be compared with |
-//! | `yardstick`, `horizon`, `growth` | the reference of a scene, and until when it holds |
+//! | `yardstick`, `horizon` | the reference of a scene, and until when it holds |
+//! | `displaced`, `growth` | runs that begin a little aside; such runs taken along, a slice at a time |
 //! | `deviation` | how far one run is from another |
 //! | `slices` | how much work fits between two looks at whether to go on |
 //! | `clock`, `cost` | processor time; the only clocks |
@@ -36,6 +37,7 @@ mod chart;
 mod clock;
 mod cost;
 mod deviation;
+mod displaced;
 mod figure;
 mod front;
 mod growth;

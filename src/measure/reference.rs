@@ -22,9 +22,9 @@ pub struct Reference {
     pub impacts: Vec<Impact>,
     /// What it counted.
     pub tallies: Tallies,
-    /// Up to when positions mean something.
+    /// How long its positions can be compared with others.
     pub horizon: Horizon,
-    /// What speaks against trusting it, a phrase; empty if nothing does.
+    /// A reason to doubt it, a phrase; empty if there is none.
     pub doubt: String,
     positions: Vec<DVec3>,
     energies: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct Horizon {
 }
 
 impl Horizon {
-    /// Nothing is known yet.
+    /// The horizon before any displaced run.
     pub(super) fn unknown() -> Horizon {
         Horizon { time: None, growth: 1.0 }
     }
@@ -56,7 +56,7 @@ impl Reference {
     /// The run itself by `settings` up to `until` (s), its horizon not yet known; and why it ended before, if it did.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub(super) fn by(
         scene: &Scene,
         settings: Settings,

@@ -97,7 +97,7 @@ pub struct Sampled {
 /// `budget` is spent.
 ///
 /// # Errors
-/// If `go_on` says no.
+/// If `go_on` returns false.
 pub fn sample(
     simulation: &mut Simulation,
     instants: Instants,
@@ -130,7 +130,7 @@ pub fn sample(
 /// Runs to `until` (s) and reads nothing: what a run costs by itself. False if it stalls before.
 ///
 /// # Errors
-/// If `go_on` says no.
+/// If `go_on` returns false.
 pub(super) fn run_through(simulation: &mut Simulation, until: f64, go_on: GoOn) -> Result<bool, Interrupted> {
     Pace::new(Budget::UNLIMITED).reach(simulation, until, go_on).map(|end_reason| end_reason.is_none())
 }

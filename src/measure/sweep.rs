@@ -84,7 +84,7 @@ impl Sweep {
         self.tasks().len()
     }
 
-    /// Measures, with so many threads. What was done when `go_on` said no is kept.
+    /// Measures, with so many threads. What was done when `go_on` returned false is kept.
     pub fn run(&self, jobs: usize, go_on: GoOn, advanced: &(dyn Fn(Advance) + Sync)) -> Measured {
         let tasks = self.tasks();
         let needed = |scene: usize| tasks.iter().any(|task| task.0 == scene);

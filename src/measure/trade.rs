@@ -44,7 +44,7 @@ pub struct Errors {
 /// (m). `exact` gets no more than a reference would.
 ///
 /// # Errors
-/// If `go_on` says no.
+/// If `go_on` returns false.
 pub fn errors(
     scene: &Scene,
     settings: Settings,
@@ -101,7 +101,7 @@ impl Subject {
     /// The reference run to the scene's duration.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
         let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
         Ok(Subject { key: key.into(), scene, reference })
@@ -110,7 +110,7 @@ impl Subject {
     /// Measures one setting: errors in one run, cost in others.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub fn measure(&self, rung: Rung, go_on: GoOn) -> Result<TradeRow, Interrupted> {
         let Instants { until, .. } = self.reference.instants;
         let settings = rung.settings(until);
@@ -137,7 +137,7 @@ impl Subject {
         })
     }
 
-    /// What speaks against the figures of a run, a phrase each: first what repeats, then what the clock says.
+    /// Reasons to doubt the figures of a run, a phrase each: first those that repeat, then those of the clock.
     fn note(&self, errors: &Errors, cost: &Cost) -> Note {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);

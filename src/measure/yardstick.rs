@@ -15,7 +15,7 @@ impl Reference {
     /// takes more than `budget` events, if that method gets farther.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub fn of(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
         let (mut reference, end_reason) = Reference::by(scene, settings(until), until, budget, go_on)?;
         if let Some(end_reason) = end_reason {
@@ -38,7 +38,7 @@ impl Reference {
     /// Runs a scene by `exact` alone, to `until` (s) or as far as `budget` takes it, and finds its horizon.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub fn brief(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
         let (mut reference, _) = Reference::by(scene, settings(until), until, budget, go_on)?;
         reference.horizon = horizon::of(scene, &reference, budget, go_on)?;

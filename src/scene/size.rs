@@ -21,7 +21,7 @@ use super::validated::Draft;
 const SPHERE: u64 = 750;
 /// Bytes that a wall takes in the scene and in a run, measured, and a quarter more.
 const WALL: u64 = 400;
-/// A scene that needs less than this many bytes is not worth the question.
+/// A scene that needs less than this many bytes is not checked.
 const SMALL: u64 = 16 << 20;
 
 /// Refuses more walls or spheres than a scene may have, and so many that this machine has no room for them.

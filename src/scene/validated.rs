@@ -11,6 +11,18 @@ pub type Color = [f64; 3];
 
 /// What a scene holds, free to be filled in and changed; [`Draft::validated`] makes a [`Scene`] of it. Wall and sphere
 /// indices everywhere in Carom are indices into these two lists.
+///
+/// ```
+/// use carom::scene::{Draft, Sphere};
+/// use glam::DVec3;
+///
+/// let x = DVec3::Y * 5.0;
+/// let ball = Sphere { x, v: DVec3::ZERO, mass: 1.0, radius: 0.5, force: DVec3::ZERO, color: None, name: None };
+/// let draft = Draft { gravity: DVec3::NEG_Y * 9.8, ..Draft::new(Vec::new(), vec![ball]) };
+/// let scene = draft.validated()?;
+/// assert_eq!(scene.spheres.len(), 1);
+/// # Ok::<(), carom::scene::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
     /// Short title; no control characters.

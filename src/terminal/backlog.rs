@@ -11,7 +11,7 @@ use crate::app::{Input, Key};
 /// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
 
-/// What both ends know.
+/// What both ends share.
 #[derive(Default)]
 struct Shared {
     waiting: AtomicUsize,

@@ -1,10 +1,10 @@
-//! What the threads tell the one that draws.
+//! Events that the other threads send to the one that draws.
 
 use std::sync::mpsc::Sender;
 
 use crate::app::Input;
 
-/// What the threads tell the one that draws.
+/// An event for the thread that draws.
 #[derive(Debug)]
 pub(super) enum Event {
     /// A key was pressed or text pasted.
@@ -22,7 +22,7 @@ pub(super) enum Event {
     End(i32),
     /// The terminal is gone.
     Gone,
-    /// A thread panicked, and this is what is known about it.
+    /// A thread panicked, with this text.
     Panicked(String),
 }
 

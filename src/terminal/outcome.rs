@@ -41,7 +41,7 @@ pub enum Error {
     NoTerminal,
     /// The terminal or the system failed us.
     Io(io::Error),
-    /// A thread panicked and said this.
+    /// A thread panicked, with this text.
     Panic(String),
 }
 

@@ -76,13 +76,13 @@ fn step_back() {
     let _ = rustix::process::setpriority_process(Some(rustix::thread::gettid()), 19);
 }
 
-/// What the thread knows.
+/// The exact run and what it is compared with, in its own thread.
 struct Follower {
     scene: Arc<Scene>,
     inbox: Reader<Arc<Snapshot>>,
     exact: Simulation,
     growth: Growth,
-    /// What was said last.
+    /// The ghost that was handed over last.
     ghost: Option<Ghost>,
     /// Largest |energy| that the exact run was seen with, J: what energy errors are relative to.
     energy_scale: f64,

@@ -21,7 +21,7 @@ pub struct Job {
     pub settings: Settings,
 }
 
-/// What a worker can be told.
+/// A command to a worker.
 #[derive(Debug, Clone)]
 pub enum Command {
     /// Take another scene, paused at t = 0.
@@ -37,9 +37,9 @@ pub enum Command {
     Goto(f64),
     /// Back to t = 0 with the settings in force; running goes on running.
     Restart,
-    /// Simulated seconds per second, > 0.
+    /// Run at so many simulated seconds per second, > 0.
     Speed(f64),
-    /// From here on, solve with these.
+    /// Solve with these settings from the next frame on.
     Settings(Settings),
     /// Panic, so that a test can see what a user would; not in the release program.
     #[cfg(debug_assertions)]
@@ -58,7 +58,7 @@ pub enum Activity {
     Stalled,
 }
 
-/// The latest news of a run.
+/// A run as its worker last reported it.
 #[derive(Debug, Clone)]
 pub struct Report {
     /// The run at the end of its last frame.
@@ -75,6 +75,6 @@ pub struct Report {
     pub obeyed: u64,
     /// CPU time spent on the run since t = 0, s; 0 where the system does not tell.
     pub cpu: f64,
-    /// What the worker's panic said; nothing more will come.
+    /// The text of the worker's panic, after which no report follows; none if it has not panicked.
     pub panic: Option<String>,
 }

@@ -17,6 +17,7 @@ use crate::{
     audit::Watch,
     measure::{self, Slices},
     physics::{Class, Progress, Simulation, Stall, Until},
+    scene::Settings,
     snapshot::{Snapshot, Ticks},
 };
 
@@ -32,7 +33,7 @@ const CALL: f64 = 3e-3;
 /// Reports take at most a fifth of the time, however large the scene.
 const REPORT_SHARE: f64 = 4.0;
 
-/// Where the run is going.
+/// Where the run ends its advance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
     Nowhere,
@@ -188,7 +189,7 @@ impl Runner {
         self.pace = Pace::new(self.pace.wanted(), self.now(), self.simulation.time());
     }
 
-    fn restart(&mut self, settings: crate::scene::Settings) {
+    fn restart(&mut self, settings: Settings) {
         self.job.settings = settings;
         self.simulation = begin(&self.job);
         self.watch = Watch::new(&self.simulation);
@@ -253,7 +254,7 @@ impl Runner {
         };
     }
 
-    /// The run as it stands.
+    /// A report of the run at the end of its last frame.
     pub(super) fn report(&mut self) -> Report {
         if self.moved {
             self.watch.look(&self.simulation, true);

@@ -1,7 +1,7 @@
 //! Known results of physics and mathematics, measured on this machine.
 //!
 //! No expected value is an earlier result of ours, except for the golden hashes. Statistical rows have fixed seeds:
-//! what passes on one machine passes on all. Time is never part of a result.
+//! what passes on one machine passes on all. Time is never part of a result. Begin with `bounces`.
 //!
 //! | file | owns |
 //! |---|---|
