@@ -69,6 +69,19 @@ fn arrows_not_drawn(files: &[File]) -> Vec<String> {
     allowed.filter(|arrow| !drawn.contains(arrow)).map(|(from, to)| format!("`{from}` does not name `{to}`")).collect()
 }
 
+/// Homes of outside crates in which these files do not name them.
+fn homes_not_used(files: &[File]) -> Vec<String> {
+    let named = |home: &str, krate: &str| {
+        let of_home = files.iter().filter(|file| top(file) == home);
+        of_home.flat_map(|file| file.contents().names).any(|name| name.root == Root::Other && name.parts[0] == krate)
+    };
+    let homes = HOMES.iter().flat_map(|(krate, homes)| homes.iter().map(move |home| (*krate, *home)));
+    homes
+        .filter(|(krate, home)| !named(home, krate))
+        .map(|(krate, home)| format!("`{home}` does not name `{krate}`"))
+        .collect()
+}
+
 /// Outside the physics and its judge, what belongs to the scene is called by its own address.
 fn takes_it_from_the_scene(file: &File) -> Vec<String> {
     if matches!(top(file).as_str(), "physics" | "audit") {
@@ -223,6 +236,12 @@ fn imports_follow_the_plan() {
 fn every_arrow_of_the_plan_is_drawn() {
     let complaints = arrows_not_drawn(&source::files("src"));
     assert!(complaints.is_empty(), "the plan allows what nothing needs:\n{}\n", complaints.join("\n"));
+}
+
+#[test]
+fn every_home_of_an_outside_crate_names_it() {
+    let complaints = homes_not_used(&source::files("src"));
+    assert!(complaints.is_empty(), "\n{}\n", complaints.join("\n"));
 }
 
 #[test]
@@ -389,6 +408,10 @@ fn an_arrow_that_nothing_draws_is_found() {
     let tells = |what: &str| complaints.iter().any(|complaint| complaint == what);
     assert!(tells("`main` does not name `cli`") && tells("`view` does not name `snapshot`"));
     assert!(!tells("`view` does not name `format`"));
+    let idle =
+        homes_not_used(&made_up(&[("src/scene/file.rs", "use ron::Options;"), ("src/app/mod.rs", "use serde::de;")]));
+    let tells = |what: &str| idle.iter().any(|complaint| complaint == what);
+    assert!(tells("`scene` does not name `serde`") && !tells("`scene` does not name `ron`"));
 }
 
 #[test]
