@@ -142,7 +142,7 @@ impl Bytes {
     fn of(marker: Marker, colors: Colors) -> Bytes {
         let frame = |i: usize| {
             let mut scene = bouncing(30, i as f64 / 30.0);
-            (scene.look.marker, scene.look.colors) = (marker, colors);
+            (scene.view_settings.marker, scene.view_settings.colors) = (marker, colors);
             draw(&scene, 80, 24)
         };
         let mut encoder = Encoder::new();

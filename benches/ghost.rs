@@ -12,7 +12,7 @@ use std::{
 use carom::{
     scene,
     snapshot::Stage,
-    worker::{Beside, Command, Job, Worker},
+    worker::{Command, ExactFollower, Job, Worker},
 };
 
 /// Length of a turn.
@@ -43,7 +43,7 @@ fn reached(name: &str, compared: bool) -> f64 {
     });
     let job = Job { stage: Arc::new(Stage::of(name, &scene)), scene: Arc::clone(&scene), settings: scene.solver };
     let mut worker = Worker::start(job, 1e9, notify.clone()).expect("a thread");
-    let beside = compared.then(|| Beside::start(scene, None, notify).expect("a thread"));
+    let beside = compared.then(|| ExactFollower::start(scene, None, notify).expect("a thread"));
     worker.send(Command::Run(true));
     let start = Instant::now();
     while start.elapsed() < TURN {

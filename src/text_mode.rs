@@ -3,11 +3,9 @@
 use std::io::{self, Write};
 
 use crate::audit::Watch;
-use crate::physics::{Class, Contact, Kind, Progress, Simulation, Stall, Until};
+use crate::format;
+use crate::physics::{Class, Contact, Kind, Progress, Simulation, Stall};
 use crate::scene::{Scene, Settings};
-
-/// Units of work between two looks at `keep_on`: some milliseconds. No bit of a result depends on it.
-const SLICE: u64 = 20_000;
 
 /// How a run was left.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +14,7 @@ pub enum Ending {
     Done,
     /// It could not go on.
     Stalled(Stall),
-    /// `keep_on` said no.
+    /// `keep_on` returned false.
     Stopped,
 }
 
@@ -28,36 +26,69 @@ pub fn tell(scene: &Scene, settings: Settings, out: &mut impl Write, keep_on: im
     let mut simulation = Simulation::new(scene, settings);
     simulation.record_events(true);
     introduce(scene, settings, out)?;
-    let mut impacts = 0;
-    let mut watch = Watch::new(&simulation);
-    let (mut told, slice) = (false, SLICE.min(watch.slice(simulation.model())));
-    loop {
-        let progress = match simulation.time() < scene.duration {
-            true => simulation.advance(Until::Time(scene.duration), slice),
-            false => Progress::Reached,
-        };
-        watch.look(&simulation, progress != Progress::Reached);
-        if simulation.time() <= scene.duration && !told && !watch.alarm().is_silent() {
-            told = true;
-            writeln!(out, "Alarm: {}.", watch.alarm())?;
+    let watch = Watch::new(&simulation);
+    let slice = Simulation::SLICE.min(watch.slice(simulation.model()));
+    let mut teller = Teller { scene, out, watch, told: false, impacts: 0 };
+    let (mut failed, mut first) = (None, true);
+    let mut next = |run: &mut Simulation| {
+        if std::mem::take(&mut first) {
+            return Some(slice);
         }
-        for event in simulation.take_events().iter().filter(|event| event.time <= scene.duration) {
-            impacts += u64::from(event.class == Class::Collide);
-            writeln!(out, "{}", sentence(scene, event))?;
+        failed = teller.tell(run, true).err();
+        (failed.is_none() && keep_on()).then_some(slice)
+    };
+    let progress = match simulation.time() < scene.duration {
+        true => simulation.run_to(scene.duration, &mut next),
+        false => Progress::Reached,
+    };
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    match progress {
+        Progress::Yielded => Ok(Ending::Stopped),
+        Progress::Stalled(stall) => {
+            teller.tell(&mut simulation, true)?;
+            give_up(stall, teller.impacts, teller.out)
         }
-        out.flush()?;
-        match progress {
-            Progress::Yielded if !keep_on() => return Ok(Ending::Stopped),
-            Progress::Yielded => {}
-            Progress::Reached => {
-                watch.state(simulation.model(), &simulation.at(scene.duration), 0);
-                if !told && !watch.alarm().is_silent() {
-                    writeln!(out, "Alarm: {}.", watch.alarm())?;
-                }
-                return conclude(scene, &simulation, impacts, out);
-            }
-            Progress::Stalled(stall) => return give_up(stall, impacts, out),
+        Progress::Reached => {
+            teller.tell(&mut simulation, false)?;
+            teller.watch.state(simulation.model(), &simulation.at(scene.duration), 0);
+            teller.warn()?;
+            conclude(scene, &simulation, teller.impacts, teller.out)
         }
+    }
+}
+
+/// What tells a run, and what it has told.
+struct Teller<'a, W: Write> {
+    scene: &'a Scene,
+    out: &'a mut W,
+    watch: Watch,
+    /// Whether the alarm has been told; it is told once.
+    told: bool,
+    impacts: u64,
+}
+
+impl<W: Write> Teller<'_, W> {
+    /// Tells what has happened since the last call; `anyway`: even if the watch finds that little has been done.
+    fn tell(&mut self, simulation: &mut Simulation, anyway: bool) -> io::Result<()> {
+        self.watch.look(simulation, anyway);
+        if simulation.time() <= self.scene.duration {
+            self.warn()?;
+        }
+        for event in simulation.take_events().iter().filter(|event| event.time <= self.scene.duration) {
+            self.impacts += u64::from(event.class == Class::Collide);
+            writeln!(self.out, "{}", sentence(self.scene, event))?;
+        }
+        self.out.flush()
+    }
+
+    fn warn(&mut self) -> io::Result<()> {
+        if self.told || self.watch.alarm().is_silent() {
+            return Ok(());
+        }
+        self.told = true;
+        writeln!(self.out, "Alarm: {}.", self.watch.alarm())
     }
 }
 
@@ -66,44 +97,50 @@ fn introduce(scene: &Scene, settings: Settings, out: &mut impl Write) -> io::Res
     if !scene.about.is_empty() {
         writeln!(out, "{}", scene.about)?;
     }
-    let bodies = format!("{}, {}", counted(scene.spheres.len(), "sphere"), counted(scene.walls.len(), "wall"));
+    let bodies =
+        format!("{}, {}", format::counted(scene.spheres.len(), "sphere"), format::counted(scene.walls.len(), "wall"));
     let Settings { method, dt, tolerance } = settings;
     writeln!(
         out,
         "{bodies}. Method {}, longest step {} seconds, tolerance {}. The run lasts {} seconds.",
         method.name(),
-        short(dt),
-        short(tolerance),
-        short(scene.duration)
+        format::spoken(dt),
+        format::spoken(tolerance),
+        format::spoken(scene.duration)
     )
 }
 
 fn conclude(scene: &Scene, simulation: &Simulation, impacts: u64, out: &mut impl Write) -> io::Result<Ending> {
     let energy = simulation.at(scene.duration).energy(simulation.model());
-    let (now, first) = (short(energy), short(simulation.initial_energy()));
-    let hits = counted(impacts, "impact");
-    writeln!(out, "The run ends at {} seconds, after {hits}.", short(scene.duration))?;
+    let (now, first) = (format::spoken(energy), format::spoken(simulation.initial_energy()));
+    let hits = format::counted(impacts, "impact");
+    writeln!(out, "The run ends at {} seconds, after {hits}.", format::spoken(scene.duration))?;
     writeln!(out, "Energy is {now} joules; it was {first} joules at the start.")?;
     out.flush()?;
     Ok(Ending::Done)
 }
 
 fn give_up(stall: Stall, impacts: u64, out: &mut impl Write) -> io::Result<Ending> {
-    writeln!(out, "The run stops at {} seconds, after {}.", short(stall.time), counted(impacts, "impact"))?;
+    writeln!(
+        out,
+        "The run stops at {} seconds, after {}.",
+        format::spoken(stall.time),
+        format::counted(impacts, "impact")
+    )?;
     out.flush()?;
     Ok(Ending::Stalled(stall))
 }
 
 /// One event in words.
 fn sentence(scene: &Scene, event: &Contact) -> String {
-    let (time, a) = (short(event.time), sphere(scene, event.a));
+    let (time, a) = (format::spoken(event.time), sphere(scene, event.a));
     let b = match event.kind {
         Kind::Wall => format!("wall {}", event.b),
         Kind::Pair => sphere(scene, event.b),
     };
     match event.class {
         Class::Collide => {
-            let (speed, impulse) = (short(event.approach_speed), short(event.impulse));
+            let (speed, impulse) = (format::spoken(event.approach_speed), format::spoken(event.impulse));
             format!("At {time} seconds {a} hits {b} at {speed} metres per second, impulse {impulse} newton seconds.")
         }
         Class::Rest => format!("At {time} seconds {a} comes to rest on {b}."),
@@ -114,37 +151,4 @@ fn sentence(scene: &Scene, event: &Contact) -> String {
 fn sphere(scene: &Scene, index: usize) -> String {
     let name = scene.spheres.get(index).and_then(|sphere| sphere.name.as_deref());
     name.map_or_else(|| format!("sphere {index}"), |name| format!("sphere {index} ({name})"))
-}
-
-fn counted(count: impl TryInto<u64>, noun: &str) -> String {
-    match count.try_into().unwrap_or(u64::MAX) {
-        1 => format!("1 {noun}"),
-        count => format!("{count} {noun}s"),
-    }
-}
-
-/// A number to be heard: three decimals, or three significant digits where three decimals would say nothing.
-fn short(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e9).contains(&size) {
-        return format!("{value:.2e}");
-    }
-    let text = format!("{value:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_string()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_as_short_as_they_can_be_heard() {
-        let heard = [0.0, 20.0, 1.5, 12.345_678, 100.0, 1e-12, 0.001, 1e300].map(short);
-        assert_eq!(heard, ["0", "20", "1.5", "12.346", "100", "1.00e-12", "0.001", "1.00e300"]);
-    }
-
-    #[test]
-    fn one_is_singular() {
-        assert_eq!((counted(1_u64, "impact"), counted(0_u64, "wall")), ("1 impact".into(), "0 walls".into()));
-    }
 }

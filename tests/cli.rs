@@ -12,6 +12,8 @@ mod program;
 mod runs;
 #[path = "cli/text.rs"]
 mod text;
+#[path = "cli/verify.rs"]
+mod verify;
 #[path = "support/watch.rs"]
 mod watch;
 

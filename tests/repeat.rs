@@ -2,10 +2,10 @@
 
 mod support;
 
-use carom::measure::verify::{Depth, GOLDEN, Golden, Lab};
-use carom::physics::{Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::measure::verify::{Depth, GOLDEN, Golden, Runner};
+use carom::physics::{Method, Progress, Settings, Simulation, State, Until};
 use proptest::{prelude::*, test_runner::RngSeed};
-use support::{gas, paper, paper_scene, run_to};
+use support::{gas, moved, paper, paper_scene, run_to};
 
 /// How far the scenes are run, s: past the first rests, and in scenes 2 and 4 short of their stalls.
 const UNTIL: [f64; 5] = [12.0, 8.0, 10.0, 8.0, 7.4];
@@ -21,13 +21,19 @@ fn whole(k: usize) -> State {
     run.state()
 }
 
-/// The scene as it stands, to be continued from.
-fn frozen(scene: &Scene, state: &State) -> Scene {
-    let mut scene = scene.clone();
-    for (body, (x, v)) in scene.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
-        (body.x, body.v) = (*x, *v);
+#[test]
+fn a_run_stops_where_it_is_told_to_and_goes_on_from_there() {
+    for (k, until) in UNTIL.into_iter().enumerate() {
+        let (mut run, mut slices) = (start(k), 0);
+        let stopped = run.run_to(until, |_| {
+            slices += 1;
+            (slices <= 5).then_some(10)
+        });
+        assert_eq!((stopped, slices), (Progress::Yielded, 6), "scene {k}");
+        assert!(run.time() < until, "scene {k} is at {} s", run.time());
+        assert_eq!(run.run_to(until, |_| Some(1000)), Progress::Reached);
+        assert_eq!(run.state().hash(), whole(k).hash(), "scene {k}");
     }
-    scene
 }
 
 #[test]
@@ -93,7 +99,7 @@ fn a_run_continues_from_time_positions_velocities_and_pending_impulses_alone() {
         for stop in [0.0, 0.23, 1.36, 3.0, 5.0, 7.0] {
             run_to(&mut run, stop, u64::MAX);
             let mut again =
-                Simulation::resumed(&frozen(&scene, &run.state()), run.settings(), run.time(), &run.transient());
+                Simulation::resumed(&moved(&scene, &run.state()), run.settings(), run.time(), &run.transient());
             assert_eq!(again.state(), run.state());
             run_to(&mut again, until, u64::MAX);
             assert_eq!(again.state().hash(), whole(k).hash(), "scene {k} from {stop} s");
@@ -156,8 +162,8 @@ fn thousands_of_spheres_are_sliced_within_a_trial_step_too() {
 
 #[test]
 fn every_build_makes_these_bits() {
-    let lab = Lab::new(Depth::Quick, &|| true);
-    let found = GOLDEN.iter().map(|run| Golden { hash: run.found(&lab).expect("a run that ends"), ..*run });
+    let runner = Runner::new(Depth::Quick, &|| true);
+    let found = GOLDEN.iter().map(|run| Golden { hash: run.found(&runner).expect("a run that ends"), ..*run });
     let found: Vec<Golden> = found.collect();
     let line = |run: &Golden| {
         let Golden { scene, until, method, hash } = run;

@@ -6,7 +6,7 @@ use carom::{
     physics::Simulation,
     scene,
     snapshot::{Class, Snapshot, Stage},
-    view::{self, Colors, Look, Marker, Overlays, Popup, Screen, Views},
+    view::{self, Colors, Marker, Overlays, Popup, Screen, ViewSettings, Views},
 };
 use glam::{DVec3, dvec3};
 use proptest::{prelude::*, test_runner::RngSeed};
@@ -18,8 +18,14 @@ use ratatui::{
 
 #[path = "screens/alarm.rs"]
 mod alarm;
+#[path = "screens/app.rs"]
+mod app;
+#[path = "screens/bounds.rs"]
+mod bounds;
 #[path = "screens/comparison.rs"]
 mod comparison;
+#[path = "screens/frames.rs"]
+mod frames;
 #[path = "support/stages.rs"]
 mod stages;
 
@@ -126,7 +132,7 @@ fn the_prompt_and_news_look_as_stored() {
 #[test]
 fn the_inspector_in_place_of_the_side_view_looks_as_stored() {
     let mut scene = stages::wedge();
-    scene.look.inspector = true;
+    scene.view_settings.inspector = true;
     store("inspector", &scene.screen());
 }
 
@@ -162,7 +168,7 @@ fn every_built_in_scene_is_drawn_within_every_size() {
 fn blocks_and_ascii_look_as_stored() {
     for (name, marker) in [("block", Marker::Block), ("ascii", Marker::Ascii)] {
         let mut scene = stages::wedge();
-        scene.look.marker = marker;
+        scene.view_settings.marker = marker;
         insta::assert_debug_snapshot!(name, draw(&scene.screen(), 80, 24));
     }
 }
@@ -173,7 +179,7 @@ fn scene_colours_look_as_stored() {
         [("256 colours", Colors::Ansi256), ("24-bit colours", Colors::Rgb), ("no colours", Colors::Never)]
     {
         let mut scene = stages::wedge();
-        scene.look.colors = colors;
+        scene.view_settings.colors = colors;
         insta::assert_debug_snapshot!(name, draw(&scene.screen(), 80, 24));
     }
 }
@@ -185,7 +191,7 @@ fn everything(mut check: impl FnMut(&Screen)) {
         let scenes =
             [stages::drop(), stages::wedge(), stages::pile(), stages::stalled(), stages::gas(9), hostile.clone()];
         for mut scene in scenes {
-            scene.look.marker = marker;
+            scene.view_settings.marker = marker;
             for popup in [
                 Popup::None,
                 help(0),
@@ -199,7 +205,7 @@ fn everything(mut check: impl FnMut(&Screen)) {
             check(&Screen { message: Some("Wrote état.svg → here"), ..scene.screen() });
         }
     }
-    hostile.look.inspector = true;
+    hostile.view_settings.inspector = true;
     check(&hostile.screen());
 }
 
@@ -238,8 +244,8 @@ fn hostile(seed: usize) -> Scene {
     snapshot.stall = Some("Averylongwordthatdoesnotfitanywhereatall ".repeat(5) + "また");
     (scene.ticks.span, scene.ticks.impacts) = (value(seed), vec![u32::MAX; seed]);
     (scene.pace.wanted, scene.pace.reached) = (value(1), Some(value(2)));
-    scene.look.selected = Some(if seed.is_multiple_of(3) { usize::MAX } else { 1 });
-    scene.look.overlays = Overlays { contacts: true, normals: true, velocities: true, ids: true };
+    scene.view_settings.selected = Some(if seed.is_multiple_of(3) { usize::MAX } else { 1 });
+    scene.view_settings.overlays = Overlays { contacts: true, normals: true, velocities: true, ids: true };
     scene
 }
 
@@ -284,7 +290,7 @@ fn assert_stays_within(screen: &Screen, width: u16, height: u16) {
     assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} of {width}x{height}");
 }
 
-fn look() -> impl Strategy<Value = Look> {
+fn look() -> impl Strategy<Value = ViewSettings> {
     let number =
         prop_oneof![4 => -1e2..1e2, 1 => -1e12..1e12, 1 => Just(f64::NAN), 1 => Just(f64::INFINITY), 1 => Just(-1e300)];
     let zoom = prop_oneof![4 => (-6.0..6.0).prop_map(|power: f64| 10_f64.powf(power)), 1 => number.clone()];
@@ -293,7 +299,7 @@ fn look() -> impl Strategy<Value = Look> {
     let colors = prop_oneof![Just(Colors::Never), Just(Colors::Ansi16), Just(Colors::Ansi256), Just(Colors::Rgb)];
     let flags = proptest::collection::vec(any::<bool>(), 7);
     (views, zoom, [number.clone(), number.clone(), number], flags, proptest::option::of(0_usize..5), marker, colors)
-        .prop_map(|(views, zoom, pan, flags, selected, marker, colors)| Look {
+        .prop_map(|(views, zoom, pan, flags, selected, marker, colors)| ViewSettings {
             views,
             zoom,
             pan: DVec3::from_array(pan),
@@ -313,10 +319,10 @@ proptest! {
     #[test]
     fn any_look_at_any_scene_is_drawn_within_any_size(look in look(), seed in 0_usize..12, width in 0_u16..=200, height in 0_u16..=60) {
         let mut scene = if seed < 9 { hostile(seed) } else { stages::pile() };
-        scene.beside = stages::strayed().beside;
-        scene.look = look;
+        scene.comparison = stages::strayed().comparison;
+        scene.view_settings = look;
         assert_stays_within(&scene.screen(), width, height);
-        let span = view::visible_span(&scene.look, &scene.snapshot.stage, Rect::new(0, 0, width, height));
+        let span = view::visible_span(&scene.view_settings, &scene.snapshot.stage, Rect::new(0, 0, width, height));
         prop_assert!(seed < 9 || span.min_element() > 0.0, "{span}");
     }
 }
@@ -324,7 +330,7 @@ proptest! {
 #[test]
 fn the_ascii_marker_means_ascii_everywhere() {
     everything(|screen| {
-        if screen.look.marker != Marker::Ascii {
+        if screen.view_settings.marker != Marker::Ascii {
             return;
         }
         for (width, height) in [(200, 60), (120, 40), (80, 24), (40, 12), (25, 7), (5, 2)] {
@@ -338,8 +344,8 @@ fn the_ascii_marker_means_ascii_everywhere() {
 #[test]
 fn without_colours_no_cell_has_one() {
     everything(|screen| {
-        let look = Look { colors: Colors::Never, ..screen.look.clone() };
-        let buffer = draw(&Screen { look: &look, ..*screen }, 120, 40);
+        let look = ViewSettings { colors: Colors::Never, ..screen.view_settings.clone() };
+        let buffer = draw(&Screen { view_settings: &look, ..*screen }, 120, 40);
         assert!(buffer.content().iter().all(|cell| cell.fg == Color::Reset && cell.bg == Color::Reset));
     });
 }
@@ -362,9 +368,9 @@ fn what_a_sphere_does_shows_without_colours() {
             stages::edit(&mut scene, |stage| stage.radii[0] = radius);
             scene.snapshot.contacts =
                 class.map(|class| stages::contact(carom::snapshot::Kind::Wall, 0, 0, class)).into_iter().collect();
-            (scene.look.colors, scene.look.overlays) = (Colors::Never, Overlays::default());
+            (scene.view_settings.colors, scene.view_settings.overlays) = (Colors::Never, Overlays::default());
             let free = text(&scene, 80, 24);
-            scene.look.selected = Some(0);
+            scene.view_settings.selected = Some(0);
             (free, text(&scene, 80, 24))
         });
         let mut all: Vec<&String> = frames.iter().flat_map(|(free, selected)| [free, selected]).collect();
@@ -381,7 +387,8 @@ fn both_views_show_one_x_in_one_column() {
             let mut scene = stages::scene("plane", &[]);
             let plane = stages::wall(dvec3(0.4, 5.0, 0.0), dvec3(0.0, 99.0, 0.0), dvec3(0.0, 0.0, 99.0), None);
             stages::edit(&mut scene, |stage| stage.walls = vec![plane]);
-            (scene.look.pan.x, scene.look.zoom, scene.look.marker) = (pan, zoom, Marker::Ascii);
+            (scene.view_settings.pan.x, scene.view_settings.zoom, scene.view_settings.marker) =
+                (pan, zoom, Marker::Ascii);
             let frame = text(&scene, width, 24);
             let lines: Vec<&str> = frame.lines().collect();
             let right = lines[1].find(" top-down").expect("the label of the right view");
@@ -401,7 +408,7 @@ fn a_metre_is_as_long_across_as_down_in_both_views() {
     };
     for normal in [DVec3::Z, DVec3::Y] {
         stages::edit(&mut scene, |stage| stage.walls = vec![square(normal)]);
-        scene.look.views = if normal.z == 1.0 { Views::Side } else { Views::Top };
+        scene.view_settings.views = if normal.z == 1.0 { Views::Side } else { Views::Top };
         for (width, height) in [(80, 24), (60, 40), (109, 60)] {
             let frame = text(&scene, width, height);
             let rows: Vec<&str> =
@@ -417,7 +424,7 @@ fn a_metre_is_as_long_across_as_down_in_both_views() {
 fn the_followed_sphere_stays_in_the_middle() {
     let mut scene = stages::scene("follow", &[(dvec3(3.0, 2.0, 0.0), DVec3::ZERO)]);
     stages::edit(&mut scene, |stage| stage.walls.clear());
-    (scene.look.selected, scene.look.follow, scene.look.zoom) = (Some(0), true, 8.0);
+    (scene.view_settings.selected, scene.view_settings.follow, scene.view_settings.zoom) = (Some(0), true, 8.0);
     let here = text(&scene, 80, 24);
     scene.snapshot.x[0] = dvec3(-1e3, 77.0, 5.0);
     assert_eq!(text(&scene, 80, 24), here);
@@ -426,7 +433,7 @@ fn the_followed_sphere_stays_in_the_middle() {
 #[test]
 fn numbers_of_a_running_scene_keep_their_columns() {
     let mut scene = stages::wedge();
-    scene.look.marker = Marker::Ascii; // one byte a column
+    scene.view_settings.marker = Marker::Ascii; // one byte a column
     let fields = |scene: &Scene| {
         let row = text(scene, 120, 40).lines().next().expect("a status row").to_string();
         ["speed", "paper ", "dt", "tol", "E ", "impacts"].map(|field| row.find(field))
@@ -467,7 +474,7 @@ fn long_names_end_in_an_ellipsis_and_wide_ones_are_not_split() {
 fn the_help_can_be_scrolled_to_its_last_row_and_no_further() {
     let scene = stages::drop();
     let area = Rect::new(0, 0, 40, 12);
-    let limit = view::help_scroll_limit(KEYS, &scene.look, area);
+    let limit = view::help_scroll_limit(KEYS, &scene.view_settings, area);
     let last = |scroll| carom::frame::text(&draw(&Screen { popup: help(scroll), ..scene.screen() }, 40, 12));
     assert!(limit > 0 && last(limit).contains("Esc") && last(limit).contains("quits"), "{}", last(limit));
     assert!(!last(limit - 1).contains("quits"), "{}", last(limit - 1));
@@ -477,9 +484,9 @@ fn the_help_can_be_scrolled_to_its_last_row_and_no_further() {
 #[test]
 fn one_tenth_of_the_visible_span_is_four_columns_of_a_forty_column_view() {
     let scene = stages::drop();
-    let span = view::visible_span(&scene.look, &scene.snapshot.stage, Rect::new(0, 0, 80, 24));
+    let span = view::visible_span(&scene.view_settings, &scene.snapshot.stage, Rect::new(0, 0, 80, 24));
     // 75 of 80 dots show the 10 m of the room: one dot is what lies between the first and the last, two are its margins.
     assert!((span.x - 10.0 * 80.0 / 75.0).abs() < 1e-12, "{span}");
-    let zoomed = Look { zoom: 4.0, ..scene.look.clone() };
+    let zoomed = ViewSettings { zoom: 4.0, ..scene.view_settings.clone() };
     assert_eq!(view::visible_span(&zoomed, &scene.snapshot.stage, Rect::new(0, 0, 80, 24)), span / 4.0);
 }

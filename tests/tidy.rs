@@ -2,121 +2,24 @@
 //!
 //! Each rule is a function from a file to its complaints, so that the last test can show each of them an offence.
 
+#[path = "tidy/circles.rs"]
+mod circles;
+#[path = "tidy/plan.rs"]
+mod plan;
 #[path = "tidy/readme.rs"]
 mod readme;
+#[path = "tidy/remains.rs"]
+mod remains;
 #[path = "tidy/source.rs"]
 mod source;
 
+use std::collections::BTreeSet;
+
+use plan::{
+    ARGUMENTS, BLIND, FILE, FUNCTION, HOMES, INEXACT, LONG_FILES, METHODS, OF_THE_SCENE, OUTER_WORLD, PLAN, TOLD,
+    UNFINISHED,
+};
 use source::{Contents, File, Name, Root};
-
-/// Who may import whom. A module that is not here may not exist; an arrow that is not here may not be drawn.
-const PLAN: &[(&str, &[&str])] = &[
-    ("main", &["cli"]),
-    (
-        "cli",
-        &[
-            "app",
-            "audit",
-            "export",
-            "frame",
-            "geometry",
-            "measure",
-            "physics",
-            "printable",
-            "scene",
-            "snapshot",
-            "terminal",
-            "text_mode",
-            "view",
-            "worker",
-        ],
-    ),
-    ("terminal", &["app", "frame", "physics", "printable", "scene", "view"]),
-    ("app", &["frame", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
-    ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
-    ("view", &["geometry", "snapshot"]),
-    ("frame", &["printable"]),
-    ("measure", &["export", "geometry", "physics", "printable", "scene"]),
-    ("text_mode", &["audit", "export", "physics", "scene"]),
-    ("export", &["physics", "printable"]),
-    ("audit", &["physics"]),
-    ("snapshot", &["audit", "geometry", "physics", "printable", "scene"]),
-    ("physics", &["geometry", "roots", "scene"]),
-    ("scene", &["geometry", "printable"]),
-    ("geometry", &[]),
-    ("roots", &[]),
-    ("printable", &[]),
-];
-
-/// The methods: folders or files of the physics that only its door may name.
-const METHODS: &[&str] = &["paper", "swept", "exact", "moreau"];
-
-/// Which crates live where only.
-const HOMES: &[(&str, &[&str])] = &[
-    ("crossterm", &["terminal"]),
-    ("signal_hook", &["terminal", "cli"]),
-    ("ron", &["scene", "config"]),
-    ("serde_path_to_error", &["scene", "config"]),
-    ("serde", &["scene", "config", "export"]),
-    ("serde_json", &["export"]),
-    ("csv", &["export"]),
-    ("clap", &["cli"]),
-    ("clap_complete", &["cli"]),
-    ("clap_mangen", &["cli"]),
-    ("indicatif", &["cli"]),
-    ("unicode_properties", &["printable"]),
-];
-
-/// Parts of the standard library by which the outer world would enter.
-const OUTER_WORLD: &[&str] = &["time", "thread", "fs", "io", "net", "process", "env", "os", "random"];
-
-/// Modules that see nothing but their arguments.
-const BLIND: &[&str] = &["physics", "geometry", "roots", "audit", "snapshot", "view"];
-
-/// What the judge may know of the physics: what a run tells, never how it was found.
-const TOLD: &[&str] =
-    &["Class", "Contact", "Kind", "Method", "Model", "Settings", "Simulation", "State", "Tallies", "contact", "model"];
-
-/// What only a mathematical library computes: its last bit differs from machine to machine.
-const INEXACT: &[&str] = &[
-    "sin",
-    "cos",
-    "tan",
-    "sin_cos",
-    "asin",
-    "acos",
-    "atan",
-    "atan2",
-    "sinh",
-    "cosh",
-    "tanh",
-    "exp",
-    "exp2",
-    "exp_m1",
-    "ln",
-    "ln_1p",
-    "log2",
-    "log10",
-    "powf",
-    "powi",
-    "cbrt",
-    "hypot",
-    "mul_add",
-    "angle_between",
-    "slerp",
-    "to_radians",
-];
-
-/// What may stand in no product file.
-const UNFINISHED: &[&str] =
-    &["unwrap", "todo!", "unimplemented!", "dbg!", "println!", "eprintln!", "print!", "eprint!"];
-
-/// Files that may be longer than [`FILE`], and why.
-const LONG_FILES: &[(&str, &str)] = &[];
-
-/// Lines of the longest file, of the longest function.
-const FILE: usize = 500;
-const FUNCTION: usize = 80;
 
 type Rule = fn(&File) -> Vec<String>;
 
@@ -147,6 +50,61 @@ fn follows_the_plan(file: &File) -> Vec<String> {
         let fine = *to == from || allowed.contains(&to.as_str());
         (!fine).then(|| format!("`{from}` must not name `{to}`"))
     })
+}
+
+/// Arrows between modules that these files draw, as (from, to).
+fn arrows_drawn(files: &[File]) -> BTreeSet<(String, String)> {
+    let of = |file: &File| {
+        let from = top(file);
+        let ours = file.contents().names.into_iter().filter(|name| name.root == Root::Ours);
+        ours.filter_map(|name| name.parts.first().cloned()).map(|to| (from.clone(), to)).collect::<Vec<_>>()
+    };
+    files.iter().flat_map(of).collect()
+}
+
+/// Arrows of the plan that these files do not draw.
+fn arrows_not_drawn(files: &[File]) -> Vec<String> {
+    let drawn = arrows_drawn(files);
+    let allowed = PLAN.iter().flat_map(|(from, to)| to.iter().map(|to| (from.to_string(), to.to_string())));
+    allowed.filter(|arrow| !drawn.contains(arrow)).map(|(from, to)| format!("`{from}` does not name `{to}`")).collect()
+}
+
+/// Homes of outside crates in which these files do not name them.
+fn homes_not_used(files: &[File]) -> Vec<String> {
+    let named = |home: &str, krate: &str| {
+        let of_home = files.iter().filter(|file| top(file) == home);
+        of_home.flat_map(|file| file.contents().names).any(|name| name.root == Root::Other && name.parts[0] == krate)
+    };
+    let homes = HOMES.iter().flat_map(|(krate, homes)| homes.iter().map(move |home| (*krate, *home)));
+    homes
+        .filter(|(krate, home)| !named(home, krate))
+        .map(|(krate, home)| format!("`{home}` does not name `{krate}`"))
+        .collect()
+}
+
+/// Outside the physics and its judge, what belongs to the scene is called by its own address.
+fn takes_it_from_the_scene(file: &File) -> Vec<String> {
+    if matches!(top(file).as_str(), "physics" | "audit") {
+        return Vec::new();
+    }
+    names(file, |name| {
+        let [physics, what] = name.parts.get(..2)? else { return None };
+        let wrong = name.root == Root::Ours && physics == "physics" && OF_THE_SCENE.contains(&what.as_str());
+        wrong.then(|| format!("`{what}` is the scene's: `crate::scene::{what}`"))
+    })
+}
+
+fn names_what_it_takes(file: &File) -> Vec<String> {
+    names(file, |name| {
+        let all = name.root == Root::Ours && name.parts.last().is_some_and(|last| last == "*");
+        all.then(|| "takes all names of another file".to_string())
+    })
+}
+
+/// The functions of a file with too many arguments.
+fn with_many_arguments(file: &File) -> Vec<String> {
+    let functions = file.contents().functions.into_iter();
+    functions.filter(|function| function.arguments > ARGUMENTS).map(|function| function.name).collect()
 }
 
 fn only_the_model_names_the_scene(file: &File) -> Vec<String> {
@@ -194,7 +152,7 @@ fn sees_only_its_arguments(file: &File) -> Vec<String> {
 }
 
 fn computes_the_same_bits_everywhere(file: &File) -> Vec<String> {
-    if !matches!(top(file).as_str(), "physics" | "geometry" | "roots" | "audit") {
+    if !matches!(top(file).as_str(), "physics" | "geometry" | "roots" | "random" | "audit") {
         return Vec::new();
     }
     let Contents { names, calls, .. } = file.contents();
@@ -275,6 +233,53 @@ fn imports_follow_the_plan() {
 }
 
 #[test]
+fn every_arrow_of_the_plan_is_drawn() {
+    let complaints = arrows_not_drawn(&source::files("src"));
+    assert!(complaints.is_empty(), "the plan allows what nothing needs:\n{}\n", complaints.join("\n"));
+}
+
+#[test]
+fn every_home_of_an_outside_crate_names_it() {
+    let complaints = homes_not_used(&source::files("src"));
+    assert!(complaints.is_empty(), "\n{}\n", complaints.join("\n"));
+}
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    let circles = circles::circles(&circles::arrows(&source::files("src")));
+    let found: BTreeSet<&str> = circles.iter().flatten().map(String::as_str).collect();
+    let known: BTreeSet<&str> = remains::IN_CIRCLES.iter().copied().collect();
+    let new: Vec<_> =
+        circles.iter().filter(|circle| circle.iter().any(|file| !known.contains(file.as_str()))).collect();
+    assert!(new.is_empty(), "each of these files leads to all others of its group: {new:#?}");
+    let cured: Vec<_> = known.difference(&found).collect();
+    assert!(cured.is_empty(), "no longer in a circle, and listed in tests/tidy/remains.rs: {cured:#?}");
+}
+
+#[test]
+fn files_say_which_names_they_take() {
+    let files = source::files("src");
+    let found: BTreeSet<&str> =
+        files.iter().filter(|file| !names_what_it_takes(file).is_empty()).map(|file| file.path.as_str()).collect();
+    assert_eq!(found, remains::ALL_NAMES.iter().copied().collect(), "against tests/tidy/remains.rs");
+}
+
+#[test]
+fn functions_have_few_arguments() {
+    let files: Vec<File> = ["src", "tests"].into_iter().flat_map(source::files).collect();
+    let many =
+        |file: &File| with_many_arguments(file).into_iter().map(|name| (file.path.clone(), name)).collect::<Vec<_>>();
+    let found: BTreeSet<(String, String)> = files.iter().flat_map(many).collect();
+    let known = remains::MANY_ARGUMENTS.iter().map(|(file, name)| (file.to_string(), name.to_string())).collect();
+    assert_eq!(found, known, "against tests/tidy/remains.rs");
+}
+
+#[test]
+fn what_belongs_to_the_scene_has_one_address() {
+    holds(takes_it_from_the_scene, &["src"]);
+}
+
+#[test]
 fn within_the_physics_only_the_model_names_the_scene() {
     holds(only_the_model_names_the_scene, &["src"]);
 }
@@ -319,7 +324,7 @@ fn no_test_sleeps_reads_a_clock_or_is_ignored() {
     holds(is_an_honest_test, &["tests"]);
 }
 
-/// (rule, file, offence): without these a rule could be blind and nobody would know.
+/// (rule, file, offence): without these a rule could be blind, and no test would tell.
 const OFFENCES: &[(Rule, &str, &str)] = &[
     (follows_the_plan, "src/view/layout.rs", "use crate::{geometry::Bounds, scene::{self, Scene}};"),
     (follows_the_plan, "src/view/layout.rs", "fn f() { let _ = crate::physics::Until::Frame; }"),
@@ -334,6 +339,11 @@ const OFFENCES: &[(Rule, &str, &str)] = &[
     (follows_the_plan, "src/geometry.rs", "use super::scene::Wall;"),
     (follows_the_plan, "src/geometry.rs", "use crate::*;"),
     (follows_the_plan, "src/utils.rs", "fn f() {}"),
+    (takes_it_from_the_scene, "src/app/knobs.rs", "use crate::physics::{Class, Settings};"),
+    (names_what_it_takes, "src/view/stage.rs", "use super::*;"),
+    (names_what_it_takes, "src/view/stage.rs", "use crate::view::screen::*;"),
+    (with_many_arguments, "src/view/stage.rs", "fn f(a: u8, b: u8, c: u8, d: u8, e: u8, f: u8) {}"),
+    (with_many_arguments, "src/view/stage.rs", "impl S { fn f(&self, a: u8, b: u8, c: u8, d: u8, e: u8, f: u8) {} }"),
     (only_the_model_names_the_scene, "src/physics/paper/mod.rs", "use crate::scene::Scene;"),
     (no_method_names_another, "src/physics/paper/mod.rs", "use crate::physics::swept::Swept;"),
     (no_method_names_another, "src/physics/exact/queue.rs", "use super::super::paper;"),
@@ -361,11 +371,47 @@ const OFFENCES: &[(Rule, &str, &str)] = &[
 #[test]
 fn every_rule_finds_its_offence() {
     for (rule, path, text) in OFFENCES {
-        assert!(!rule(&File::new(path, text)).is_empty(), "nobody minds {text:?} in {path}");
+        assert!(!rule(&File::new(path, text)).is_empty(), "no rule minds {text:?} in {path}");
     }
     let long = format!("fn f() {{\n{}}}\n", "    g();\n".repeat(FUNCTION));
     assert_eq!(fits_on_a_screen(&File::new("src/a.rs", &long)).len(), 1, "a function too long");
     assert_eq!(fits_on_a_screen(&File::new("src/a.rs", &"\n".repeat(FILE + 1))).len(), 1, "a file too long");
+}
+
+fn made_up(files: &[(&str, &str)]) -> Vec<File> {
+    files.iter().map(|(path, text)| File::new(path, text)).collect()
+}
+
+#[test]
+fn circles_of_files_are_found_and_nothing_else() {
+    let found = |files: &[(&str, &str)]| circles::circles(&circles::arrows(&made_up(files)));
+    let pair = found(&[("src/view/a.rs", "use super::b::B;"), ("src/view/b.rs", "fn f() { crate::view::a::f(); }")]);
+    assert_eq!(pair, [BTreeSet::from(["src/view/a.rs".to_string(), "src/view/b.rs".to_string()])]);
+    let door = [("src/view/mod.rs", "mod a; pub use a::f;"), ("src/view/a.rs", "use super::T;")];
+    assert_eq!(found(&door).len(), 1, "a child that imports from its door");
+    let long = [("src/a.rs", "use crate::b::B;"), ("src/b.rs", "use crate::c::C;"), ("src/c.rs", "use crate::a::A;")];
+    assert_eq!(found(&long)[0].len(), 3, "by way of a third");
+    let map = [
+        ("src/view/mod.rs", "mod a; mod b; pub use a::f;"),
+        ("src/view/a.rs", "use super::b::T;"),
+        ("src/view/b.rs", ""),
+    ];
+    assert_eq!(found(&map), Vec::new(), "a map, and a file that imports from its neighbour");
+    let tested = [("src/a.rs", "#[cfg(test)] mod tests { use crate::b::B; }"), ("src/b.rs", "use crate::a::A;")];
+    assert_eq!(found(&tested), Vec::new(), "tests may look around");
+}
+
+#[test]
+fn an_arrow_that_nothing_draws_is_found() {
+    let complaints =
+        arrows_not_drawn(&made_up(&[("src/main.rs", "fn main() {}"), ("src/view/a.rs", "use crate::format;")]));
+    let tells = |what: &str| complaints.iter().any(|complaint| complaint == what);
+    assert!(tells("`main` does not name `cli`") && tells("`view` does not name `snapshot`"));
+    assert!(!tells("`view` does not name `format`"));
+    let idle =
+        homes_not_used(&made_up(&[("src/scene/file.rs", "use ron::Options;"), ("src/app/mod.rs", "use serde::de;")]));
+    let tells = |what: &str| idle.iter().any(|complaint| complaint == what);
+    assert!(tells("`scene` does not name `serde`") && !tells("`scene` does not name `ron`"));
 }
 
 #[test]
@@ -373,6 +419,11 @@ fn what_is_allowed_is_not_an_offence() {
     let fine: &[(Rule, &str, &str)] = &[
         (follows_the_plan, "src/physics/mod.rs", "mod contact; use contact::Contact; use self::state::State;"),
         (follows_the_plan, "src/view/mod.rs", "#[cfg(test)] mod tests { use crate::physics::Kind; }"),
+        (takes_it_from_the_scene, "src/audit/law.rs", "use crate::physics::Settings;"),
+        (takes_it_from_the_scene, "src/app/knobs.rs", "use crate::scene::Settings; use crate::physics::Class;"),
+        (names_what_it_takes, "src/view/stage.rs", "#[cfg(test)] mod tests { use super::*; }"),
+        (names_what_it_takes, "src/scene/file.rs", "fn f() { use ron::Error::*; }"),
+        (with_many_arguments, "src/view/stage.rs", "impl S { fn f(&self, a: u8, b: u8, c: u8, d: u8, e: u8) {} }"),
         (no_method_names_another, "src/physics/mod.rs", "mod paper; use paper::Paper;"),
         (no_method_names_another, "src/physics/paper/frame.rs", "use super::response; use crate::physics::paper::X;"),
         (only_the_model_names_the_scene, "src/physics/model.rs", "use crate::scene::Scene;"),

@@ -1,39 +1,43 @@
 //! What each input does to the application.
 
-use std::sync::Arc;
-
 use super::{
-    App, Current, Effect, Open,
     action::{Action, Direction},
-    comparison::Comparison,
-    keys::{self, Code, Key},
-    knobs, look, pairs,
+    input::Effect,
+    keys::{self, Code, Key, pairs},
+    knobs,
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
+    state::{Open, State},
+    view_settings,
 };
 use crate::{
-    physics::Settings,
-    printable, scene, view,
+    printable,
+    scene::Settings,
+    view,
     worker::{Activity, Command},
 };
 
 /// Longest text the prompt takes; more than any order needs.
 const PROMPT: usize = 200;
 
-/// What to do where a run cannot go on; why it cannot is on the screen already.
-pub(super) const STALLED: &str = "The run cannot go on from here: m changes the method, r restarts.";
-
-impl App {
+impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         self.message = None;
-        // These work whatever is open and whoever is typing.
+        // These work whatever is open and is being typed into.
         if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
             keys::action(key).filter(|_| key.ctrl)
         {
             return self.act(action);
         }
         match &mut self.open {
-            Open::Prompt(_) => self.type_into_prompt(key),
+            Open::Prompt(text) => match typed(text, key) {
+                Typed::Text => {}
+                Typed::Nothing => self.open = Open::Nothing,
+                Typed::Order(text) => {
+                    self.open = Open::Nothing;
+                    self.order(&text);
+                }
+            },
             Open::Scenes(list) => match list.handle(key) {
                 Outcome::Stay => {}
                 Outcome::Close => self.open = Open::Nothing,
@@ -44,7 +48,7 @@ impl App {
                 Outcome::NotMine => return self.act_on(key),
             },
             Open::Help { scroll } => {
-                let limit = view::help_scroll_limit(&pairs(&self.help), &self.look, self.area);
+                let limit = view::help_scroll_limit(&pairs(&self.help), &self.view_settings, self.area);
                 match scrolled(key, *scroll, limit, self.area.height.into()) {
                     Some(next) => *scroll = next,
                     None => return self.act_on(key),
@@ -78,6 +82,7 @@ impl App {
         }
     }
 
+    /// Does what a key is for. Every action is named, so that a new one that nothing does cannot be built.
     fn act(&mut self, action: Action) -> Effect {
         match action {
             Action::Quit => return Effect::Quit,
@@ -102,50 +107,48 @@ impl App {
             Action::Prompt => self.open = Open::Prompt(String::new()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
-            Action::Close => {
-                if self.stop_loading() {
-                    return Effect::DrawNow;
-                }
-                if self.headed {
-                    self.run(false);
-                }
-                self.open = Open::Nothing;
-            }
-            _ => self.change_look(action),
-        }
-        Effect::DrawNow
-    }
-
-    /// The actions that only move the camera or change what is drawn.
-    fn change_look(&mut self, action: Action) {
-        match action {
-            Action::NextViews => look::next_views(&mut self.look),
+            Action::Close => self.close(),
+            Action::NextViews => view_settings::next_views(&mut self.view_settings),
             Action::Pan(direction) => self.pan(direction),
-            Action::ZoomIn if !look::zoom(&mut self.look, look::ZOOM) => self.say("This is the closest view."),
-            Action::ZoomOut if !look::zoom(&mut self.look, 1.0 / look::ZOOM) => self.say("This is the widest view."),
-            Action::WholeScene => look::whole_scene(&mut self.look),
+            Action::ZoomIn => self.zoom(view_settings::ZOOM, "This is the closest view."),
+            Action::ZoomOut => self.zoom(1.0 / view_settings::ZOOM, "This is the widest view."),
+            Action::WholeScene => view_settings::whole_scene(&mut self.view_settings),
             Action::Follow => self.follow(),
             Action::SelectNext => self.select(true),
             Action::SelectPrevious => self.select(false),
             Action::Inspector => self.toggle_inspector(),
-            Action::NextOverlays => {
-                let said = look::next_overlays(&mut self.look);
-                self.say(said);
-            }
-            _ => {} // zooming has happened in its guard; all others are done in `act`
+            Action::NextOverlays => self.next_overlays(),
         }
+        Effect::DrawNow
+    }
+
+    /// Gives up the scene on its way; else stops a run that goes to a target, and closes what is open.
+    fn close(&mut self) {
+        if self.stop_loading() {
+            return;
+        }
+        if self.has_target {
+            self.run(false);
+        }
+        self.open = Open::Nothing;
+    }
+
+    /// Magnifies by `factor`, or says `at_the_end` where it is already at the end.
+    fn zoom(&mut self, factor: f64, at_the_end: &str) {
+        if !view_settings::zoom(&mut self.view_settings, factor) {
+            self.say(at_the_end);
+        }
+    }
+
+    fn next_overlays(&mut self) {
+        let said = view_settings::next_overlays(&mut self.view_settings);
+        self.say(said);
     }
 
     fn toggle_pause(&mut self) {
         if !self.say_if_stalled() {
             self.run(!self.running);
         }
-    }
-
-    /// Runs to where a command leads, not on and on.
-    fn head_for(&mut self, command: Command, on: bool) {
-        (self.running, self.headed) = (on, on);
-        self.worker.send(command);
     }
 
     /// Steps or runs on from a pause.
@@ -156,34 +159,11 @@ impl App {
         }
     }
 
-    /// A stalled run can't go on: says why, and whether that was so.
-    fn say_if_stalled(&mut self) -> bool {
-        let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
-        if stalled {
-            self.say(STALLED);
-        }
-        stalled
-    }
-
     fn restart(&mut self) {
         let stalled = self.report.activity == Activity::Stalled;
         self.worker.send(Command::Restart);
         if stalled {
             self.run(false);
-        }
-    }
-
-    /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
-    pub(super) fn show(&mut self, current: Current, settings: Settings) {
-        let running = self.running;
-        self.current = current;
-        self.settings = settings;
-        self.worker.send(Command::Load(self.current.job(settings)));
-        self.run(running);
-        look::whole_scene(&mut self.look);
-        self.look.selected = None;
-        if self.comparison.is_some() {
-            self.compare();
         }
     }
 
@@ -198,24 +178,7 @@ impl App {
                 self.compare();
             }
         }
-        self.look.ghost = self.comparison.is_some();
-    }
-
-    /// Starts the exact run beside this one.
-    fn compare(&mut self) {
-        let before = self.comparison.take().map(Comparison::end).or(self.ending.take());
-        match Comparison::start(&self.current, &self.report, before, Arc::clone(&self.notify)) {
-            Ok(comparison) => self.comparison = Some(comparison),
-            Err(error) => self.say(format!("The exact run cannot start: {}.", printable::cause(&error))),
-        }
-    }
-
-    /// Says what of the scene is allowed but hardly meant.
-    pub(super) fn warn(&mut self) {
-        let warnings = scene::warnings(&self.current.scene, self.settings, self.current.scene.duration);
-        if !warnings.is_empty() {
-            self.say(format!("Note: {}.", warnings.join("; ")));
-        }
+        self.view_settings.ghost = self.comparison.is_some();
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
@@ -231,26 +194,6 @@ impl App {
         self.given.iter().map(|(entry, _)| entry.clone()).chain(scene_list::built_in()).collect()
     }
 
-    fn solve_with(&mut self, settings: Result<Settings, String>) {
-        match settings {
-            Ok(settings) => {
-                self.settings = settings;
-                self.worker.send(Command::Settings(settings));
-            }
-            Err(said) => self.say(said),
-        }
-    }
-
-    fn go_at(&mut self, speed: Result<f64, String>) {
-        match speed {
-            Ok(speed) => {
-                self.speed = speed;
-                self.worker.send(Command::Speed(speed));
-            }
-            Err(said) => self.say(said),
-        }
-    }
-
     fn toggle_help(&mut self) {
         self.open = match self.open {
             Open::Help { .. } => Open::Nothing,
@@ -260,61 +203,49 @@ impl App {
 
     fn pan(&mut self, direction: Direction) {
         self.let_go();
-        let span = view::visible_span(&self.look, &self.report.snapshot.stage, self.area);
-        look::pan(&mut self.look, direction, span);
+        let span = view::visible_span(&self.view_settings, &self.report.snapshot.stage, self.area);
+        view_settings::pan(&mut self.view_settings, direction, span);
     }
 
     fn let_go(&mut self) {
-        let x = self.look.selected.and_then(|i| self.report.snapshot.x.get(i));
-        look::let_go(&mut self.look, &self.report.snapshot.stage.view, x.copied());
+        let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i));
+        view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x.copied());
     }
 
     fn follow(&mut self) {
-        if self.look.follow {
+        if self.view_settings.follow {
             self.let_go();
             return self.say("The view stays where it is.");
         }
-        if self.look.selected.is_none() {
+        if self.view_settings.selected.is_none() {
             self.select(true);
         }
-        if let Some(i) = self.look.selected {
-            self.look.follow = true;
-            self.look.pan = glam::DVec3::ZERO;
+        if let Some(i) = self.view_settings.selected {
+            self.view_settings.follow = true;
+            self.view_settings.pan = glam::DVec3::ZERO;
             self.say(format!("The view follows sphere {i}."));
         }
     }
 
     fn select(&mut self, forward: bool) {
-        let x = self.look.selected.and_then(|i| self.report.snapshot.x.get(i)).copied();
-        let followed = self.look.follow;
-        look::select(&mut self.look, self.current.scene.spheres.len(), forward);
+        let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i)).copied();
+        let followed = self.view_settings.follow;
+        view_settings::select(&mut self.view_settings, self.current.scene.spheres.len(), forward);
         if self.current.scene.spheres.is_empty() {
             self.say("This scene has no spheres.");
-        } else if followed && self.look.selected.is_none() {
-            self.look.follow = true;
-            look::let_go(&mut self.look, &self.report.snapshot.stage.view, x);
+        } else if followed && self.view_settings.selected.is_none() {
+            self.view_settings.follow = true;
+            view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x);
         }
     }
 
     fn toggle_inspector(&mut self) {
-        self.look.inspector = !self.look.inspector;
-        self.say(if self.look.inspector { "Inspector on." } else { "Inspector off, where the screen has no room." });
-    }
-
-    fn type_into_prompt(&mut self, key: Key) {
-        let Open::Prompt(text) = &mut self.open else { return };
-        match (key.code, key.typed()) {
-            (Code::Enter, _) => {
-                let text = std::mem::take(text);
-                self.open = Open::Nothing;
-                self.order(&text);
-            }
-            (Code::Escape, _) => self.open = Open::Nothing,
-            (Code::Backspace, _) if text.pop().is_none() => self.open = Open::Nothing,
-            (Code::Char('u'), None) => text.clear(),
-            (_, Some(c)) if text.len() < PROMPT => text.push(c),
-            _ => {}
-        }
+        self.view_settings.inspector = !self.view_settings.inspector;
+        self.say(if self.view_settings.inspector {
+            "Inspector on."
+        } else {
+            "Inspector off, where the screen has no room."
+        });
     }
 
     fn order(&mut self, text: &str) {
@@ -336,6 +267,31 @@ impl App {
     }
 }
 
+/// What a key on the `:` line has made of it.
+enum Typed {
+    /// A text still being typed.
+    Text,
+    /// Nothing: the line closes.
+    Nothing,
+    /// A text to obey.
+    Order(String),
+}
+
+fn typed(text: &mut String, key: Key) -> Typed {
+    match (key.code, key.typed()) {
+        (Code::Enter, _) => return Typed::Order(std::mem::take(text)),
+        (Code::Escape, _) => return Typed::Nothing,
+        (Code::Backspace, _) => match text.pop() {
+            Some(_) => {}
+            None => return Typed::Nothing,
+        },
+        (Code::Char('u'), None) => text.clear(),
+        (_, Some(c)) if text.len() < PROMPT => text.push(c),
+        _ => {}
+    }
+    Typed::Text
+}
+
 /// Where a key scrolls a text that goes down by `limit` rows at most, on a screen of so many, if it is a scrolling key.
 fn scrolled(key: Key, scroll: usize, limit: usize, screen: usize) -> Option<usize> {
     // Status, heading, timeline and hints leave the rest of the screen to the text.
@@ -352,9 +308,4 @@ fn scrolled(key: Key, scroll: usize, limit: usize, screen: usize) -> Option<usiz
         _ => return None,
     };
     Some(to.min(limit))
-}
-
-/// An error's lines joined, for the message line.
-pub(super) fn one_line(text: &str) -> String {
-    text.lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }

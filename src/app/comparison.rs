@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use super::Current;
+use super::current::Current;
 use crate::{
     snapshot::{Ghost, Stage, Trade},
     view,
-    worker::{Beside, Ending, Notify, Report},
+    worker::{Ending, ExactFollower, Notify, Report},
 };
 
 /// A comparison under way.
 pub(super) struct Comparison {
-    /// Whose runs are compared: the last reports of another scene may still be on their way.
+    /// The scene whose runs are compared: the last reports of another one may still be on their way.
     stage: Arc<Stage>,
-    beside: Beside,
+    follower: ExactFollower,
     ghost: Arc<Option<Ghost>>,
     trade: Trade,
 }
@@ -31,17 +31,17 @@ impl Comparison {
         notify: Notify,
     ) -> std::io::Result<Comparison> {
         let stage = Arc::clone(&current.stage);
-        let beside = Beside::start(Arc::clone(&current.scene), before, notify)?;
+        let follower = ExactFollower::start(Arc::clone(&current.scene), before, notify)?;
         if Arc::ptr_eq(&stage, &report.snapshot.stage) {
-            beside.compare(&report.snapshot);
+            follower.compare(&report.snapshot);
         }
         let trade = Trade::new(stage.duration);
-        Ok(Comparison { stage, beside, ghost: Arc::new(None), trade })
+        Ok(Comparison { stage, follower, ghost: Arc::new(None), trade })
     }
 
     /// Ends it; the next one takes what is returned.
     pub(super) fn end(self) -> Ending {
-        self.beside.end()
+        self.follower.end()
     }
 
     /// Takes note of what both threads have reported since `before`.
@@ -53,10 +53,10 @@ impl Comparison {
                 false => self.add_costs(before, after),
             }
             if !Arc::ptr_eq(from, to) {
-                self.beside.compare(to);
+                self.follower.compare(to);
             }
         }
-        let ghost = self.beside.take();
+        let ghost = self.follower.take();
         if let (Some(ghost), false) = (&*ghost, Arc::ptr_eq(&ghost, &self.ghost)) {
             self.add_errors(ghost);
         }
@@ -96,7 +96,7 @@ impl Comparison {
     }
 
     /// As it is drawn.
-    pub(super) fn shown(&self) -> view::Beside<'_> {
-        view::Beside { ghost: self.ghost(), trade: &self.trade }
+    pub(super) fn shown(&self) -> view::Comparison<'_> {
+        view::Comparison { ghost: self.ghost(), trade: &self.trade }
     }
 }

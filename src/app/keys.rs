@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::action::{Action, Direction};
-use crate::physics::Method;
+use crate::scene::Method;
 
 /// A key as a terminal can tell it: of a character the shift is in the character itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,7 +96,7 @@ pub struct Binding {
     pub keys: &'static [Key],
     /// What they do.
     pub action: Action,
-    /// The same, for the help.
+    /// What they do, in words for the help.
     pub does: &'static str,
     /// A word for the hint line, if it has a place there.
     pub hint: Option<&'static str>,
@@ -179,6 +179,11 @@ pub fn help_rows() -> Vec<(String, &'static str)> {
 /// The hint line, the most needed first: (key, a word).
 pub fn hints() -> Vec<(String, &'static str)> {
     table().filter_map(|row| row.hint.map(|word| (row.keys[0].to_string(), word))).collect()
+}
+
+/// The rows of a table of keys as slices.
+pub(super) fn pairs<'a>(rows: &'a [(String, &'static str)]) -> Vec<(&'a str, &'a str)> {
+    rows.iter().map(|(keys, does)| (keys.as_str(), *does)).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The values that keys turn: tolerance, dt, speed. Bounded, and free of rounding noise after many turns.
 
-use crate::physics::{Method, Settings};
+use crate::scene::{Method, Settings};
 
 /// Finest and coarsest tolerance the keys reach, dimensionless: the resolution of f64, and the degree at which a
 /// sphere's centre lies on the wall (larger values count as this).
@@ -20,7 +20,7 @@ fn turned(value: f64, factor: f64, range: (f64, f64)) -> Option<f64> {
     moves.then_some(next)
 }
 
-/// The same number to twelve digits: ten times a tenth is one.
+/// The number rounded to twelve digits, so that ten times a tenth is one.
 fn tidy(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
@@ -57,7 +57,7 @@ fn edge(what: &str, value: f64, factor: f64, example: &str) -> String {
     format!("The keys take {what} no {end}er than {value:e}; exact values: :{example}")
 }
 
-/// The same settings with the method after theirs.
+/// The settings with the method that comes after theirs.
 pub(super) fn next_method(settings: Settings) -> Settings {
     let at = Method::ALL.iter().position(|method| *method == settings.method).unwrap_or(0);
     Settings { method: Method::ALL[(at + 1) % Method::ALL.len()], ..settings }

@@ -1,44 +1,30 @@
-//! Opening another scene beside the one on the screen: a scene of a million spheres takes seconds, and keys go on
-//! working meanwhile.
+//! A scene on its way, while another is on the screen.
 
-use std::{
-    ffi::{OsStr, OsString},
-    sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError},
-    time::Duration,
-};
+use std::{ffi::OsStr, sync::mpsc::Receiver};
 
-use super::{App, Current, Effect, act::one_line, knobs};
-use crate::{
-    physics::Settings,
-    printable,
-    scene::{self, Opened},
-    worker::Errands,
-};
-
-/// A scene that opens within this time is there before the next key, as if nothing had to be waited for; still well
-/// below what a key may take to be answered.
-const AT_ONCE: Duration = Duration::from_millis(30);
+use super::{current::Current, knobs};
+use crate::scene::{self, Opened, Settings};
 
 /// A scene on its way.
 pub(super) struct Loading {
     /// What it is opened by.
     pub(super) name: String,
     /// Whether its file is read again, so that settings changed by hand stay.
-    again: bool,
-    result: Receiver<Result<Loaded, String>>,
+    pub(super) again: bool,
+    pub(super) result: Receiver<Result<Loaded, String>>,
 }
 
 /// A scene, ready to be shown.
 pub(super) struct Loaded {
-    current: Current,
-    settings: Settings,
-    message: Option<String>,
+    pub(super) current: Current,
+    pub(super) settings: Settings,
+    pub(super) message: Option<String>,
 }
 
 /// What decides about the settings of a scene that is read again: those in force, and those of the scene before.
-type Before = Option<(Settings, Settings)>;
+pub(super) type Before = Option<(Settings, Settings)>;
 
-fn load(source: &OsStr, before: Before) -> Result<Loaded, String> {
+pub(super) fn load(source: &OsStr, before: Before) -> Result<Loaded, String> {
     let opened: Opened = scene::open(source).map_err(|error| one_line(&error.to_string()))?;
     let own = opened.scene.solver;
     let settings = before.map_or(own, |(now, old)| knobs::reloaded(now, old, own));
@@ -47,85 +33,7 @@ fn load(source: &OsStr, before: Before) -> Result<Loaded, String> {
     Ok(Loaded { current: Current::of(opened), settings, message })
 }
 
-impl App {
-    /// Reads the scene's file again; if it no longer loads, the old run goes on.
-    pub(super) fn reload(&mut self) {
-        if self.current.path.is_none() {
-            return self.say(format!("{} is built in: there is no file to reload.", self.current.name));
-        }
-        let source = self.current.source().to_owned();
-        self.fetch(self.current.name.clone(), source, Some((self.settings, self.current.scene.solver)));
-    }
-
-    /// Opens another scene; if it does not load, the old run goes on.
-    pub(super) fn open_scene(&mut self, name: &str) {
-        // The file that the program was started with may have a name that can't be shown as it is.
-        let given = self.given.as_ref().filter(|(entry, _)| entry.name == name);
-        let source = given.map_or_else(|| name.into(), |(_, path)| path.as_os_str().to_owned());
-        self.fetch(name.to_owned(), source, None);
-    }
-
-    /// The name of the scene that is shown, or that will be.
-    pub(super) fn wanted_name(&self) -> &str {
-        self.loading.as_ref().map_or(&self.current.name, |loading| &loading.name)
-    }
-
-    /// Gives up a scene on its way; whether there was one.
-    pub(super) fn stop_loading(&mut self) -> bool {
-        let loading = self.loading.take();
-        if let Some(loading) = &loading {
-            self.say(format!("{} is not opened.", loading.name));
-        }
-        loading.is_some()
-    }
-
-    fn fetch(&mut self, name: String, source: OsString, before: Before) {
-        let errands = match self.errands.take().map_or_else(|| Errands::start(self.notify.clone()), Ok) {
-            Ok(errands) => self.errands.insert(errands),
-            Err(error) => return self.say(format!("{name} cannot be opened: {}.", printable::cause(&error))),
-        };
-        let result = errands.ask(move || load(&source, before));
-        let at_once = result.recv_timeout(AT_ONCE);
-        let loading = Loading { name, again: before.is_some(), result };
-        match at_once {
-            Ok(loaded) => self.arrived(&loading, loaded),
-            Err(RecvTimeoutError::Timeout) => {
-                self.say(format!("Opening {}; Esc gives it up.", loading.name));
-                self.loading = Some(loading);
-            }
-            Err(RecvTimeoutError::Disconnected) => self.say(failed(&loading.name)),
-        }
-    }
-
-    /// Takes the scene on its way if it has arrived.
-    pub(super) fn look_for_scene(&mut self) -> Option<Effect> {
-        let loading = self.loading.take()?;
-        match loading.result.try_recv() {
-            Ok(loaded) => self.arrived(&loading, loaded),
-            Err(TryRecvError::Disconnected) => self.say(failed(&loading.name)),
-            Err(TryRecvError::Empty) => {
-                self.loading = Some(loading);
-                return None;
-            }
-        }
-        Some(Effect::DrawNow)
-    }
-
-    fn arrived(&mut self, loading: &Loading, loaded: Result<Loaded, String>) {
-        match loaded {
-            Ok(Loaded { current, settings, message }) => {
-                self.show(current, settings);
-                message.into_iter().for_each(|message| self.say(message));
-                if loading.again {
-                    self.say(format!("Reloaded {}.", loading.name));
-                }
-            }
-            Err(said) => self.say(said),
-        }
-    }
-}
-
-/// What is said of a scene that made us panic.
-fn failed(name: &str) -> String {
-    format!("{name} cannot be opened: carom has made a mistake.")
+/// An error's lines joined, for the message line.
+fn one_line(text: &str) -> String {
+    text.lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }

@@ -11,7 +11,7 @@ pub(super) enum Order {
     Speed(f64),
     /// Time to go to, s, ≥ 0.
     Goto(f64),
-    /// See [`crate::worker::Command::Panic`].
+    /// Panic, so that a test can see what a user would; not in the release program.
     #[cfg(debug_assertions)]
     #[doc(hidden)]
     Panic {

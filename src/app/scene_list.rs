@@ -18,7 +18,7 @@ pub(super) struct Entry {
 impl Entry {
     /// A built-in scene; what it is, it says itself.
     fn built_in(name: &str) -> Entry {
-        let about = scene::open(name).map(|opened| opened.scene.about).unwrap_or_default();
+        let about = scene::open(name).map(|opened| opened.scene.about.clone()).unwrap_or_default();
         Entry { name: name.into(), about }
     }
 }

@@ -1,4 +1,4 @@
-//! `--accuracy E`: what to solve with, chosen by trying, and said.
+//! `--accuracy E`: settings chosen by trying them, and the line that names them.
 
 use std::io::{self, IsTerminal, Write};
 

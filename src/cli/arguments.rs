@@ -8,9 +8,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 
 use super::numbers;
-use super::output::Target;
+use super::target::Target;
 use crate::measure::Shard;
-use crate::physics::{Method, Settings};
+use crate::scene::{Method, Settings};
 use crate::view::{Colors, Marker};
 
 const AFTER: &str = "\

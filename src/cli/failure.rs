@@ -5,7 +5,6 @@ use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue};
 
-use super::output;
 use crate::printable;
 
 /// Exit code of a command that could not do its work.
@@ -20,15 +19,15 @@ const SIGPIPE: u8 = 13;
 /// How a command ended other than well.
 #[derive(Debug)]
 pub(super) enum Failure {
-    /// What clap has to say: wrong usage, or the help and version that were asked for.
+    /// Wrong usage, in the words of clap; or the help and version that were asked for.
     Clap(clap::Error),
     /// The work could not be done: one full sentence.
     Failed(String),
-    /// It was said already, line by line.
+    /// The work could not be done, and the reasons are printed already.
     Told,
     /// The options are each right, but not together: one full sentence.
     Usage(String),
-    /// Whoever read our output has gone.
+    /// The reader of our output has gone.
     ClosedPipe,
     /// A signal of this number.
     Signal(u8),
@@ -44,7 +43,7 @@ impl From<io::Error> for Failure {
 }
 
 impl Failure {
-    /// Says it, and tells the exit code.
+    /// Prints the line that belongs to it on stderr, if one does; the exit code.
     pub(super) fn report(self) -> ExitCode {
         match self {
             Failure::Clap(error) => explain(error),
@@ -62,7 +61,7 @@ fn say(sentence: &str, code: u8) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// One line on stderr. If nobody can read it, the exit code still tells.
+/// One line on stderr. If it cannot be read, the exit code still tells.
 pub(super) fn note(sentence: &str) {
     let _ = writeln!(io::stderr(), "carom: {}", printable::escaped(sentence));
 }
@@ -83,10 +82,15 @@ fn explain(mut error: clap::Error) -> ExitCode {
         false => plain.lines().try_for_each(|line| writeln!(io::stderr(), "{}", printable::escaped(line))),
     };
     match printed {
-        // Wrong usage stays wrong usage, whether or not anybody can read what was wrong.
-        Err(broken) if !error.use_stderr() => Failure::from(output::cannot_write("standard output", &broken)).report(),
+        // Wrong usage stays wrong usage, whether or not the message can be read.
+        Err(broken) if !error.use_stderr() => Failure::from(cannot_write("standard output", &broken)).report(),
         _ => code,
     }
+}
+
+/// Keeps the kind, by which a closed pipe is told from a failure.
+pub(super) fn cannot_write(name: &str, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("cannot write {name}: {}", printable::cause(error)))
 }
 
 /// What clap would quote from the command line, if it is not printable as it is. Its own styles are another variant.

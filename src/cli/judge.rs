@@ -1,7 +1,6 @@
 //! What watches a run of `carom run`: always the watch, and with `--check` the judge, to which every frame is shown. Neither
 //! changes a bit of the run; the judge only costs time.
 
-use super::run::SLICE;
 use crate::audit::{Judge, Watch};
 use crate::physics::{Contact, Progress, Simulation, State, Until};
 
@@ -30,8 +29,8 @@ impl Jury {
     /// Advances by a slice, towards `time` (s); with a judge by a frame at most.
     pub(super) fn advance(&mut self, simulation: &mut Simulation, time: f64) -> Progress {
         let (until, slice) = match self.judge {
-            Some(_) => (Until::Frame, SLICE),
-            None => (Until::Time(time), SLICE.min(self.watch.slice(simulation.model()))),
+            Some(_) => (Until::Frame, Simulation::SLICE),
+            None => (Until::Time(time), Simulation::SLICE.min(self.watch.slice(simulation.model()))),
         };
         let progress = simulation.advance(until, slice);
         self.fresh = progress == Progress::Reached;

@@ -16,7 +16,7 @@ pub(super) fn list() -> Result<(), Failure> {
 
 /// (name, about) of every built-in scene.
 fn entries() -> Result<Vec<(&'static str, String)>, Failure> {
-    let about = |name| scene::open(name).map(|opened| opened.scene.about);
+    let about = |name| scene::open(name).map(|opened| opened.scene.about.clone());
     let entries = builtin::ALL.iter().map(|scene| about(scene.name).map(|about| (scene.name, about)));
     entries.collect::<Result<_, _>>().map_err(|error| Failure::Failed(error.to_string()))
 }

@@ -2,8 +2,10 @@
 
 use std::io::{self, Write};
 
+use clap::CommandFactory;
 use clap_mangen::Man;
 
+use super::arguments::Arguments;
 use super::failure::Failure;
 use super::output::Output;
 
@@ -14,7 +16,7 @@ pub(super) fn man() -> Result<(), Failure> {
 }
 
 fn page(out: &mut impl Write) -> io::Result<()> {
-    let mut command = super::command().disable_help_subcommand(true);
+    let mut command = Arguments::command().disable_help_subcommand(true);
     command.build();
     let top = Man::new(command.clone());
     top.render_title(out)?;

@@ -8,14 +8,13 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::arguments::Measure;
 use super::failure::{Failure, note};
-use super::output::{Output, Target};
-use super::place::refuse_shared;
+use super::output::Output;
 use super::signals::Signals;
+use super::target::{Target, refuse_shared};
 use crate::export::{Format, Table, TradeRow, read_trade};
 use crate::measure::{self, Advance, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
-use crate::physics::Method;
 use crate::printable;
-use crate::scene::{self, Opened};
+use crate::scene::{self, Method, Opened};
 
 /// Steps of the progress bar: finer than any terminal shows.
 const STEPS: f64 = 1000.0;
@@ -49,7 +48,7 @@ fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 2] {
     [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref())]
 }
 
-/// Who competes on the front: `exact`, the yardstick, only if it was asked for.
+/// Which methods compete on the front: `exact`, the yardstick, only if it was asked for.
 fn allowed(arguments: &Measure) -> Vec<Method> {
     match &arguments.methods {
         listed if !listed.is_empty() => listed.clone(),
@@ -96,7 +95,7 @@ fn endless(opened: &Opened, ladder: &Ladder) -> Option<String> {
     Some(format!("{}: {warning}", opened.key))
 }
 
-/// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
+/// On stderr; indicatif draws nothing where that is no terminal.
 fn progress_bar(wanted: usize) -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !io::stderr().is_terminal() {

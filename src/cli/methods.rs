@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use super::arguments::Methods;
 use super::failure::Failure;
 use super::output::Output;
-use crate::physics::{Description, Method, describe, deviations};
+use crate::physics::{Description, describe, deviations};
+use crate::scene::Method;
 
 pub(super) fn methods(arguments: &Methods) -> Result<(), Failure> {
     let mut out = Output::stdout();

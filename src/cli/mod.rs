@@ -1,4 +1,5 @@
-//! The command line: arguments turned into plain values, and which wing runs.
+//! The command line: arguments turned into plain values, and the command that is run with them. Begin with `arguments`,
+//! then the file of a command.
 //!
 //! | file | owns |
 //! |---|---|
@@ -8,7 +9,8 @@
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
 //! | `judge` | what watches and judges a run of `carom run` |
-//! | `place` | which file a word leads to, and that no output destroys another or an input |
+//! | `place` | which file a word leads to |
+//! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
 //! | the rest | one command each |
@@ -32,6 +34,7 @@ mod rows;
 mod run;
 mod show;
 mod signals;
+mod target;
 mod verify;
 
 use std::ffi::OsString;

@@ -1,6 +1,5 @@
 //! Where results go: standard output, or a file that is replaced as a whole or not at all.
 
-use std::ffi::OsString;
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::os::fd::AsFd;
@@ -10,48 +9,9 @@ use std::path::{Path, PathBuf};
 use rustix::io::Errno;
 use tempfile::{Builder, NamedTempFile};
 
-use super::failure::Failure;
+use super::failure::{Failure, cannot_write};
 use super::place::{Place, destination, folder};
-use crate::printable;
-
-/// A FILE of the command line; `-` is standard output.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Target {
-    /// `-`
-    Stdout,
-    /// Anything else.
-    File(PathBuf),
-}
-
-impl From<OsString> for Target {
-    fn from(word: OsString) -> Target {
-        if word == "-" { Target::Stdout } else { Target::File(PathBuf::from(word)) }
-    }
-}
-
-impl Target {
-    /// Where it is, whatever it was called; none if it leads nowhere.
-    pub(super) fn place(&self) -> Option<Place> {
-        match self {
-            Target::Stdout => Place::of_open(io::stdout()),
-            Target::File(path) => Place::of(path).ok(),
-        }
-    }
-
-    /// Whether it is standard output, by whatever name (`/dev/stdout`, the file into which the shell sends it).
-    pub(super) fn is_stdout(&self) -> bool {
-        let alike = |place| place != Place::Nowhere && Some(place) == Place::of_open(io::stdout());
-        *self == Target::Stdout || self.place().is_some_and(alike)
-    }
-
-    /// What it was called, as it may be printed.
-    pub(super) fn name(&self) -> String {
-        match self {
-            Target::Stdout => "-".into(),
-            Target::File(path) => printable::name(path.as_os_str()),
-        }
-    }
-}
+use super::target::Target;
 
 /// A buffered writer of results. What is not [finished](Output::finish) leaves no file behind and no file changed.
 #[derive(Debug)]
@@ -131,11 +91,6 @@ impl Write for Sink {
             Sink::Replacement(file, _) => file.flush(),
         }
     }
-}
-
-/// Keeps the kind, by which a closed pipe is told from a failure.
-pub(super) fn cannot_write(name: &str, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("cannot write {name}: {}", printable::cause(error)))
 }
 
 fn sink(path: &Path) -> io::Result<Sink> {

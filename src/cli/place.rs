@@ -14,10 +14,6 @@ use std::path::{Path, PathBuf};
 
 use rustix::io::Errno;
 
-use super::failure::Failure;
-use super::output::Target;
-use crate::printable;
-
 /// Links that lead to links are followed so many times, as Linux does.
 const MOST_LINKS: usize = 40;
 
@@ -82,39 +78,4 @@ pub(super) fn destination(path: &Path) -> io::Result<PathBuf> {
 /// The folder of a path.
 pub(super) fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
-/// Refuses outputs, each with its option, of which one would replace another, or one of the `inputs`, each with what it
-/// is. What leads nowhere is no concern here: opening it says so.
-///
-/// # Errors
-/// A sentence that names both.
-pub(super) fn refuse_shared(outputs: &[(&str, Option<&Target>)], inputs: &[(&str, &Path)]) -> Result<(), Failure> {
-    let given = outputs.iter().filter_map(|(option, target)| Some((*option, (*target)?)));
-    let placed: Vec<_> = given.filter_map(|(option, target)| Some((option, target, target.place()?))).collect();
-    for (index, (option, target, place)) in placed.iter().enumerate() {
-        if *place == Place::Nowhere {
-            continue;
-        }
-        if let Some((first, other, _)) = placed[..index].iter().find(|(_, _, other)| other == place) {
-            return Err(Failure::Usage(format!(
-                "{first} and {option} cannot both go to {}; give each its own",
-                both(other, target)
-            )));
-        }
-        if let Some((what, path)) = inputs.iter().find(|(_, path)| Place::of(path).is_ok_and(|input| input == *place)) {
-            let (name, path) = (target.name(), printable::name(path.as_os_str()));
-            return Err(Failure::Usage(format!("{option} {name} would replace {what} {path}; give it another name")));
-        }
-    }
-    Ok(())
-}
-
-/// Two words for one place.
-fn both(one: &Target, other: &Target) -> String {
-    match (one.name(), other.name()) {
-        _ if one.is_stdout() => "standard output".into(),
-        (one, other) if one == other => format!("the same file, {one}"),
-        (one, other) => format!("the same file, {one} and {other}"),
-    }
 }

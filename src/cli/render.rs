@@ -12,14 +12,11 @@ use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
 use crate::audit::Watch;
-use crate::physics::{Class, Progress, Simulation, Stall, State, Until};
+use crate::physics::{Class, Progress, Simulation, Stall, State};
 use crate::scene::{self, Opened, Settings};
 use crate::snapshot::{Snapshot, Stage, Ticks};
-use crate::view::{self, Look, Mode, Pace, Popup, Screen};
+use crate::view::{self, Mode, Pace, Popup, Screen, ViewSettings};
 use crate::{app, frame};
-
-/// Units of work between two looks at signals: some milliseconds. No bit of a frame depends on it.
-const SLICE: u64 = 20_000;
 
 pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failure> {
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Failed(error.to_string()))?;
@@ -28,7 +25,7 @@ pub(super) fn render(arguments: &Render, signals: &Signals) -> Result<(), Failur
     let endless = scene::endless(&opened.scene, settings, arguments.at);
     endless.iter().for_each(|warning| note(&format!("{}: {warning}", opened.key)));
     let shown = reach(&opened, settings, arguments.at, signals)?;
-    let buffer = draw(&shown, &look(&arguments.display), arguments.size);
+    let buffer = draw(&shown, &view_settings(&arguments.display), arguments.size);
     let bytes = match arguments.format {
         Format::Text => frame::text(&buffer),
         Format::Ansi => frame::ansi(&buffer),
@@ -50,20 +47,25 @@ struct Shown {
 fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Result<Shown, Failure> {
     let mut simulation = Simulation::new(&opened.scene, settings);
     simulation.record_events(true);
-    let (mut ticks, mut stall) = (Ticks::new(opened.scene.duration), None);
-    let mut impacts = count(&mut simulation, at, &mut ticks);
+    let (mut ticks, mut impacts) = (Ticks::new(opened.scene.duration), 0);
     let mut watch = Watch::new(&simulation);
-    let slice = SLICE.min(watch.slice(simulation.model()));
-    while simulation.time() < at && stall.is_none() {
-        if let Progress::Stalled(why) = simulation.advance(Until::Time(at), slice) {
-            stall = Some(why);
+    let slice = Simulation::SLICE.min(watch.slice(simulation.model()));
+    let mut look = |run: &mut Simulation| {
+        if run.time() <= at {
+            watch.look(run, true);
         }
-        if simulation.time() <= at {
-            watch.look(&simulation, true);
-        }
-        impacts += count(&mut simulation, at, &mut ticks);
-        signals.check()?;
+        impacts += count(run, at, &mut ticks);
+        signals.check()
+    };
+    let (mut end, mut looked) = (Progress::Reached, Ok(()));
+    if simulation.time() < at {
+        end = simulation.run_to(at, |run| {
+            looked = look(run);
+            looked.is_ok().then_some(slice)
+        });
     }
+    looked.and_then(|()| look(&mut simulation))?;
+    let stall = if let Progress::Stalled(stall) = end { Some(stall) } else { None };
     let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
     let whole = Snapshot::of(&stage, &simulation, stall.as_ref());
     let shown = cut(whole, &simulation, at, impacts);
@@ -94,16 +96,16 @@ fn cut(whole: Snapshot, simulation: &Simulation, at: f64, impacts: u64) -> Snaps
     cut
 }
 
-fn look(display: &Display) -> Look {
-    let ordinary = Look::default();
-    Look {
+fn view_settings(display: &Display) -> ViewSettings {
+    let ordinary = ViewSettings::default();
+    ViewSettings {
         colors: display.color.depth().unwrap_or(ordinary.colors),
         marker: display.marker.map_or(ordinary.marker, Into::into),
         ..ordinary
     }
 }
 
-fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
+fn draw(shown: &Shown, view_settings: &ViewSettings, (columns, rows): (u16, u16)) -> Buffer {
     let area = Rect::new(0, 0, columns, rows);
     let mut buffer = Buffer::empty(area);
     let mode = if shown.stall.is_some() { Mode::Stalled } else { Mode::Pause };
@@ -113,8 +115,8 @@ fn draw(shown: &Shown, look: &Look, (columns, rows): (u16, u16)) -> Buffer {
         snapshot: &shown.snapshot,
         pace: Pace { mode, wanted: 1.0, reached: None },
         ticks: &shown.ticks,
-        beside: None,
-        look,
+        comparison: None,
+        view_settings,
         popup: Popup::None,
         message: None,
         hints: &hints,

@@ -2,13 +2,13 @@
 
 use super::arguments::Run;
 use super::failure::{Failure, note};
-use crate::printable;
+use crate::format;
 use crate::scene::Scene;
 
 /// So many rows of states are written without a question, some ten gigabytes of CSV.
 const MANY: f64 = 1e8;
 
-/// Refuses more rows than anybody has room for, up to `until` (s), unless they are meant; then says how many come.
+/// Refuses more rows, up to `until` (s), than any disk is meant to take, unless they are wanted; then says how many come.
 ///
 /// # Errors
 /// A sentence with the number, if `--yes` is not given.
@@ -18,7 +18,7 @@ pub(super) fn refuse_too_many(arguments: &Run, scene: &Scene, until: f64) -> Res
     if rows <= MANY {
         return Ok(());
     }
-    let (rows, step) = (printable::count(rows), printable::number(every));
+    let (rows, step) = (format::amount(rows), format::number(every));
     if !arguments.yes {
         return Err(Failure::Usage(format!(
             "--every {step} asks for {rows} rows of states; add --yes if that is meant"

@@ -8,16 +8,13 @@ use super::accuracy;
 use super::arguments::Run;
 use super::failure::{Failure, note};
 use super::judge::Jury;
-use super::output::{Output, Target};
-use super::place::refuse_shared;
+use super::output::Output;
 use super::rows::refuse_too_many;
 use super::signals::Signals;
+use super::target::{Target, refuse_shared};
 use crate::export::{EventRow, Format, Row, StateRow, Table};
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 use crate::scene;
-
-/// Units of work between two looks at signals and progress: some milliseconds. No bit of a result depends on it.
-pub(super) const SLICE: u64 = 20_000;
 
 /// Steps of the progress bar: finer than any terminal shows.
 const STEPS: f64 = 1000.0;
@@ -60,7 +57,7 @@ fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failu
     Ok(Some(Table::new::<R>(format, Output::open(target)?)?))
 }
 
-/// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
+/// On stderr; indicatif draws nothing where that is no terminal.
 fn progress_bar() -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !std::io::stderr().is_terminal() {
@@ -146,7 +143,7 @@ impl Recorder<'_> {
             writeln!(out, "{line}")?;
             out.finish()?;
         } else {
-            let _ = writeln!(std::io::stderr(), "{line}"); // if nobody can read it, the exit code still tells
+            let _ = writeln!(std::io::stderr(), "{line}"); // if it cannot be read, the exit code still tells
         }
         unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         self.jury.sentences().iter().for_each(|sentence| note(sentence));

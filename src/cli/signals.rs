@@ -12,7 +12,7 @@ use super::failure::Failure;
 use crate::terminal::not_ignored;
 
 /// How long a command may take to notice a signal and remove its unfinished files, before the process ends without
-/// it (blocked on a pipe that nobody empties, say). Longer keeps the user waiting; a slice of work takes some 10 ms.
+/// it (blocked on a pipe that is not read, say). Longer keeps the user waiting; a slice of work takes some 10 ms.
 const GRACE: Duration = Duration::from_millis(500);
 
 /// The signal that has arrived, if any.

@@ -11,7 +11,7 @@ use super::arguments::Verify;
 use super::failure::Failure;
 use super::output::Output;
 use super::signals::Signals;
-use crate::measure::verify::{self, CHECKS, Depth, Lab, Outcome, Row, Trouble, table};
+use crate::measure::verify::{self, CHECKS, Depth, Outcome, Row, Runner, Trouble, table};
 
 pub(super) fn verify(arguments: &Verify, signals: &Signals) -> Result<(), Failure> {
     let depth = if arguments.quick { Depth::Quick } else { Depth::Whole };
@@ -20,7 +20,7 @@ pub(super) fn verify(arguments: &Verify, signals: &Signals) -> Result<(), Failur
     let go_on = || signals.check().is_ok() && read.load(Ordering::Relaxed);
     let mut book = Book::open()?;
     let mut told = Ok(());
-    verify::verify(Lab::new(depth, &go_on), threads, |outcome| {
+    verify::verify(Runner::new(depth, &go_on), threads, |outcome| {
         if go_on() {
             told = book.enter(outcome);
             read.store(told.is_ok(), Ordering::Relaxed);
@@ -110,7 +110,7 @@ impl Tally {
     }
 }
 
-/// On stderr, and only if somebody watches: indicatif draws nothing where it is no terminal.
+/// On stderr; indicatif draws nothing where that is no terminal.
 fn progress_bar() -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !io::stderr().is_terminal() {

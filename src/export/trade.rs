@@ -4,7 +4,8 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 
-use super::Row;
+use super::note::Note;
+use super::table::Row;
 use crate::printable;
 
 /// One setting on one scene. An empty cell: the method has no such knob, or there is no such figure.
@@ -40,8 +41,8 @@ pub struct TradeRow {
     pub cpu_per_s: Option<f64>,
     /// (worst − best) / best of these.
     pub cpu_spread: Option<f64>,
-    /// What speaks against these figures; empty if nothing does.
-    pub note: String,
+    /// Reasons to doubt these figures; empty if there are none.
+    pub note: Note,
 }
 
 impl Row for TradeRow {
@@ -115,7 +116,8 @@ fn improper(row: &TradeRow) -> Option<String> {
     if !row.deepest_degree.is_finite() {
         return Some(format!("deepest_degree is {:?}; wanted is a finite number", row.deepest_degree));
     }
-    let texts = [("scene", &row.scene), ("method", &row.method), ("note", &row.note)];
+    let note = row.note.to_string();
+    let texts = [("scene", &row.scene), ("method", &row.method), ("note", &note)];
     let (column, refused) =
         texts.iter().find_map(|(column, text)| Some((column, text.chars().find(|c| !printable::is_printable(*c))?)))?;
     let what = printable::described(refused);
@@ -144,7 +146,7 @@ fn explain(error: &csv::Error) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Format, Table};
+    use super::super::table::{Format, Table};
     use super::*;
 
     fn row() -> TradeRow {
@@ -176,7 +178,7 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back_to_the_same_row() {
-        let text = written(&[row(), TradeRow { dt: None, note: String::new(), ..row() }]);
+        let text = written(&[row(), TradeRow { dt: None, note: Note::default(), ..row() }]);
         let back = read_trade(text.as_bytes()).expect("our own file");
         assert_eq!(back[0], (2, row()));
         assert_eq!((back[1].0, back[1].1.dt), (3, None));

@@ -18,7 +18,7 @@ pub fn text(buffer: &Buffer) -> String {
     text
 }
 
-/// The same with colours and attributes as SGR sequences; every line ends in the default style.
+/// The text of a buffer with colours and attributes as SGR sequences; every line ends in the default style.
 pub fn ansi(buffer: &Buffer) -> String {
     let mut out = Vec::new();
     for y in 0..buffer.area().height {

@@ -2,13 +2,14 @@
 
 use super::clock::{Deadline, Watch};
 use super::cost::cost;
+use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::reference::Reference;
-use super::report::{duration, plain, setting, short};
+use super::report::setting;
+use super::sample::{Budget, EndReason};
 use super::trade::errors;
-use super::walk::{Budget, Cut};
-use super::{GoOn, Interrupted};
-use crate::physics::{Method, Scene, Settings};
+use crate::format;
+use crate::scene::{Method, Scene, Settings};
 
 /// Seconds on the wall that trying settings may take.
 const PATIENCE: f64 = 4.0;
@@ -45,7 +46,7 @@ pub struct Choice {
 /// Why there is no [`Choice`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Miss {
-    /// The caller's [`GoOn`] said no.
+    /// The caller's [`GoOn`] returned false.
     Interrupted,
     /// No setting meets it: a sentence.
     Nothing(String),
@@ -62,7 +63,7 @@ impl From<Interrupted> for Miss {
 /// not use are those of `fallback`.
 ///
 /// # Errors
-/// If nothing that was tried meets it, or `go_on` says no.
+/// If nothing that was tried meets it, or `go_on` returns false.
 pub fn choose(
     scene: &Scene,
     (wanted, until): (f64, f64),
@@ -76,7 +77,7 @@ pub fn choose(
         return Err(Miss::Nothing(format!("no accuracy can be measured here: {reason}")));
     }
     if reference.meaningful() < TELLING * until {
-        let (meaningful, until) = (short(reference.meaningful(), 1), plain(until));
+        let (meaningful, until) = (format::digits(reference.meaningful(), 1), format::time(until));
         return Err(Miss::Nothing(format!(
             "no accuracy can be measured here: positions mean something only up to {meaningful} s of {until} s"
         )));
@@ -120,7 +121,7 @@ fn attempt(
     let settings = rung.settings(until);
     let watch = Watch::start();
     let errors = errors(scene, settings, reference, wanted, patient)?;
-    let misses = errors.position.distance > wanted || matches!(errors.walk.cut, Some(Cut::Stalled(_)));
+    let misses = errors.position.distance > wanted || matches!(errors.run.end_reason, Some(EndReason::Stalled(_)));
     if misses {
         return Ok(None);
     }
@@ -137,7 +138,7 @@ fn nothing(wanted: f64, methods: &[Method], reference: &Reference, cut_short: bo
         "no setting of {} was found{time} that meets a position error of {wanted:e} m up to {} s; carom measure shows \
          what there is",
         names.join(", "),
-        plain(reference.meaningful()),
+        format::time(reference.meaningful()),
     )
 }
 
@@ -150,17 +151,17 @@ impl Choice {
             format!(
                 "; next is {}, {} per s, error {} m",
                 in_words(&next),
-                duration(next.cpu_per_s),
-                short(next.error, 1)
+                format::duration(next.cpu_per_s),
+                format::digits(next.error, 1)
             )
         });
         let hasty = if self.cut_short { "; not all settings were tried" } else { "" };
         format!(
             "chose {}: {} per simulated s, position error {} m up to {} s{next}{hasty}",
             in_words(&self.chosen),
-            duration(cpu_per_s),
-            short(error, 1),
-            plain(self.compared),
+            format::duration(cpu_per_s),
+            format::digits(error, 1),
+            format::time(self.compared),
         )
     }
 }

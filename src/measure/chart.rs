@@ -3,7 +3,7 @@
 use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
-use crate::physics::Method;
+use crate::scene::Method;
 
 /// Columns and rows of the plot itself; with its labels 80 columns.
 const WIDTH: usize = 70;

@@ -1,4 +1,4 @@
-//! The clocks: what a thread has worked, and what the wall says. Nothing else in `measure` knows of time.
+//! The clocks: processor time of a thread, and wall time. Nothing else in `measure` knows of time.
 
 use std::time::{Duration, Instant};
 

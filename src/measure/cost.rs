@@ -1,9 +1,10 @@
 //! What a setting costs: processor time of its thread per simulated second, the best of several runs.
 
 use super::clock::{Passed, Watch, resolution};
-use super::walk::run_through;
-use super::{GoOn, Interrupted};
-use crate::physics::{Scene, Settings, Simulation};
+use super::interrupt::{GoOn, Interrupted};
+use super::sample::run_through;
+use crate::physics::Simulation;
+use crate::scene::{Scene, Settings};
 
 /// One timing lasts at least so long, s: shorter runs are repeated, so that the clock's own cost is lost in them.
 const SHORTEST: f64 = 2e-3;
@@ -34,7 +35,7 @@ pub struct Cost {
     pub cpu_per_s: f64,
     /// (worst − best) / best; none if it was timed once.
     pub spread: Option<f64>,
-    /// What speaks against these figures, a phrase each.
+    /// Reasons to doubt these figures, a phrase each.
     pub doubts: Vec<&'static str>,
 }
 
@@ -42,7 +43,7 @@ pub struct Cost {
 /// anything recorded or read.
 ///
 /// # Errors
-/// If `go_on` says no.
+/// If `go_on` returns false.
 pub fn cost(scene: &Scene, settings: Settings, until: f64, go_on: GoOn) -> Result<Cost, Interrupted> {
     let fresh = Simulation::new(scene, settings);
     let (first, simulated) = time(&fresh, until, 1, go_on)?;

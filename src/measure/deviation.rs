@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::walk::Impact;
+use super::sample::Impact;
 use crate::physics::contact::Key;
 
 /// Impacts closer than this, s, have no order: mirror-simultaneous ones come in either.

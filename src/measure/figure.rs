@@ -6,8 +6,9 @@ use std::fmt::Write;
 use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
-use crate::physics::Method;
+use crate::format;
 use crate::printable;
+use crate::scene::Method;
 
 /// Width of the figure and height of one panel with all its words, px.
 const WIDTH: f64 = 760.0;
@@ -127,7 +128,7 @@ fn power(label: &str) -> String {
 fn words(rows: &[TradeRow], axes: &Axes, svg: &mut String) {
     let Plot { left, top, width, height } = axes.plot;
     let horizon = match rows[0].horizon {
-        Some(time) => format!("horizon {} s", super::report::plain(time)),
+        Some(time) => format!("horizon {} s", format::time(time)),
         None => "no horizon within the run".into(),
     };
     let title = escape(&format!("{}: accuracy for time ({horizon})", rows[0].scene));

@@ -1,8 +1,7 @@
 //! Which settings are worth their time: the Pareto front, and the cheapest setting for each decade of error.
 
-use super::trade::STALLED;
 use crate::export::TradeRow;
-use crate::physics::Method;
+use crate::scene::Method;
 
 /// Decades of error that are asked for: from 1 m down to what rounding leaves.
 const DECADES: [f64; 17] =
@@ -22,7 +21,7 @@ pub fn front(rows: &[TradeRow], allowed: &[Method]) -> Vec<usize> {
 fn competitors(rows: &[TradeRow], allowed: &[Method]) -> impl Iterator<Item = (f64, f64, usize)> {
     rows.iter().enumerate().filter_map(|(index, row)| {
         let method = Method::from_name(&row.method).filter(|method| allowed.contains(method));
-        let finished = !row.note.starts_with(STALLED);
+        let finished = row.note.stalled.is_none();
         method.filter(|_| finished).and(Some((row.position_error?, row.cpu_per_s?, index)))
     })
 }
@@ -56,6 +55,7 @@ pub fn cheapest(rows: &[TradeRow], front: &[usize]) -> Vec<Cheapest> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::export::Note;
 
     fn row(error: f64, cost: f64) -> TradeRow {
         TradeRow {
@@ -74,7 +74,7 @@ mod tests {
             evaluations: 0,
             cpu_per_s: Some(cost),
             cpu_spread: None,
-            note: String::new(),
+            note: Note::default(),
         }
     }
 

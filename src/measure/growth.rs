@@ -1,10 +1,10 @@
 //! The horizon of a scene as a run meets it: displaced runs taken along, a slice at a time.
 
-use super::deviation::Deviation;
-use super::horizon::{GROWTH, RUNS, displaced, displacement};
+use super::displaced::{Parting, RUNS, displaced};
 use super::reference::settings;
-use super::walk::Instants;
-use crate::physics::{Progress, Scene, Simulation, Until};
+use super::sample::Instants;
+use crate::physics::{Progress, Simulation, Until};
+use crate::scene::Scene;
 
 /// More spheres than this get one displaced run instead of eight: there is memory for two runs, and in a crowd each
 /// displacement grows alike.
@@ -13,12 +13,13 @@ const CROWD: usize = 1000;
 /// Exact runs of a scene, the first as it is and the others displaced by 1e-12 m, watched for their parting.
 #[derive(Debug, Clone)]
 pub struct Growth {
+    /// The runs; the first is the scene as it is.
     runs: Vec<Simulation>,
+    /// How far each of the others has parted from the first.
+    partings: Vec<Parting>,
     instants: Instants,
     /// The instant that comes next, counted as those of [`Instants`], but without end.
     next: u64,
-    /// How far each sphere was displaced, m.
-    length: f64,
     found: Option<f64>,
 }
 
@@ -26,11 +27,11 @@ impl Growth {
     /// The runs of a scene at t = 0.
     pub fn of(scene: &Scene) -> Growth {
         let instants = Instants::new(scene.duration.max(f64::MIN_POSITIVE), scene.spheres.len());
-        let (settings, length) = (settings(instants.until), displacement(scene));
+        let settings = settings(instants.until);
         let seeds = if scene.spheres.len() > CROWD { 1..=1 } else { 1..=RUNS };
-        let aside = seeds.map(|seed| Simulation::new(&displaced(scene, seed, length), settings));
+        let (aside, partings): (Vec<_>, Vec<_>) = seeds.map(|seed| displaced(scene, settings, seed)).unzip();
         let runs = std::iter::once(Simulation::new(scene, settings)).chain(aside).collect();
-        Growth { runs, instants, next: 1, length, found: None }
+        Growth { runs, partings, instants, next: 1, found: None }
     }
 
     /// The horizon, s, once it is met.
@@ -51,7 +52,7 @@ impl Growth {
             match run.advance(Until::Time(instant), work) {
                 Progress::Reached => {}
                 Progress::Yielded => there = false,
-                // What one of them cannot follow, nobody can trust.
+                // Beyond the end of one of them, positions cannot be trusted.
                 Progress::Stalled(stall) => self.found = Some(stall.time),
             }
         }
@@ -67,8 +68,8 @@ impl Growth {
         self.next += 1;
         let states: Vec<_> = self.runs.iter().map(|run| run.at(instant)).collect();
         let Some((first, others)) = states.split_first() else { return };
-        let parted = |x: &[glam::DVec3]| Deviation::between(x, &first.x).distance >= GROWTH * self.length;
-        if others.iter().any(|other| parted(&other.x)) {
+        let mut pairs = self.partings.iter_mut().zip(others);
+        if pairs.any(|(parting, other)| parting.compare(&other.x, &first.x)) {
             self.found = Some(instant);
         }
     }

@@ -1,7 +1,8 @@
 //! Which settings are tried: methods × dt × tolerance, a knob that a method lacks tried once.
 
 use super::reference;
-use crate::physics::{Effect, Knobs, Method, Settings, knobs};
+use crate::physics::{Effect, Knobs, knobs};
+use crate::scene::{Method, Settings};
 
 /// Steps tried unless told otherwise, s.
 pub const DT: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
@@ -16,7 +17,7 @@ pub struct Ladder {
     pub methods: Vec<Method>,
     /// Longest steps, s; none: [`DT`], of which only the longest where a step changes nothing but the cost.
     pub dt: Option<Vec<f64>>,
-    /// Tolerances, degrees; none: [`TOLERANCES`], likewise.
+    /// Tolerances, degrees; none: [`TOLERANCES`], of which only the coarsest where a tolerance changes nothing but the cost.
     pub tolerances: Option<Vec<f64>>,
 }
 

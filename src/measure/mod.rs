@@ -5,21 +5,25 @@
 //! thread per simulated second, and the work counted.
 //!
 //! For others to build on:
-//! - [`Deviation::between`] two lists of positions: the largest distance and whose it is. What a live panel shows.
+//! - [`Deviation::between`] two lists of positions: the largest distance and the sphere it is of. What a live panel shows.
 //! - [`Reference::of`] a scene: an `exact` run kept at fixed [`Instants`], its impacts, and its [`Horizon`];
 //!   [`Reference::meaningful`] says until when positions can be compared.
 //! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
 //! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
 //!
-//! Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it says no.
+//! Begin with `trade`, then `sample` and `yardstick`. Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it returns false.
 //! Everything but times repeats to the bit.
 //!
 //! | file | owns |
 //! |---|---|
-//! | `walk` | a run read at fixed instants |
-//! | `reference`, `horizon`, `growth` | the yardstick, and until when it holds |
+//! | `sample` | a run read at fixed instants |
+//! | `interrupt` | how what takes long is told to stop |
+//! | `reference` | a run kept at fixed instants, for others to be compared with |
+//! | `yardstick`, `horizon` | the reference of a scene, and until when it holds |
+//! | `displaced`, `growth` | runs that begin a little aside; such runs taken along, a slice at a time |
 //! | `deviation` | how far one run is from another |
+//! | `slices` | how much work fits between two looks at whether to go on |
 //! | `clock`, `cost` | processor time; the only clocks |
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
@@ -33,19 +37,23 @@ mod chart;
 mod clock;
 mod cost;
 mod deviation;
+mod displaced;
 mod figure;
 mod front;
 mod growth;
 mod horizon;
+mod interrupt;
 mod ladder;
 mod reference;
 mod report;
+mod sample;
 mod scale;
 mod shard;
+mod slices;
 mod sweep;
 mod trade;
 pub mod verify;
-mod walk;
+mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
 pub use clock::thread_cpu;
@@ -54,18 +62,12 @@ pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
 pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
-pub use horizon::Horizon;
+pub use interrupt::{GoOn, Interrupted};
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
-pub use reference::Reference;
+pub use reference::{Horizon, Reference};
 pub use report::report;
+pub use sample::{Budget, EndReason, Impact, Instants, Sampled, sample};
 pub use shard::{Placed, Shard, merge};
+pub use slices::Slices;
 pub use sweep::{Advance, Measured, Sweep, Yardstick};
 pub use trade::{Errors, Subject, errors};
-pub use walk::{Budget, Cut, Impact, Instants, Walk, walk};
-
-/// Asked every few milliseconds whether to go on; from several threads at once.
-pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
-
-/// A [`GoOn`] said no: there is no result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Interrupted;

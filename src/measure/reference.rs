@@ -1,17 +1,13 @@
-//! The yardstick: an `exact` run of a scene, kept at fixed instants, and the horizon up to which it means something.
+//! A run of a scene to compare others with, kept at fixed instants.
 
 use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::horizon::{self, Horizon};
-use super::report::decimal;
-use super::walk::{Budget, Cut, Impact, Instants, walk};
-use super::{GoOn, Interrupted};
-use crate::physics::{Method, Scene, Settings, Simulation, Tallies};
-
-/// Who stands in where `exact` can't go on, if there is such a method, and its finest setting: (name, dt in s, tolerance).
-const STAND_IN: (&str, f64, f64) = ("moreau", 1e-4, 1e-12);
+use super::interrupt::{GoOn, Interrupted};
+use super::sample::{Budget, EndReason, Impact, Instants, sample};
+use crate::physics::{Simulation, Tallies};
+use crate::scene::{Method, Scene, Settings};
 
 /// A run of a scene to compare others with.
 #[derive(Debug, Clone)]
@@ -26,13 +22,29 @@ pub struct Reference {
     pub impacts: Vec<Impact>,
     /// What it counted.
     pub tallies: Tallies,
-    /// Up to when positions mean something.
+    /// How long its positions can be compared with others.
     pub horizon: Horizon,
-    /// What speaks against trusting it, a phrase; empty if nothing does.
+    /// A reason to doubt it, a phrase; empty if there is none.
     pub doubt: String,
     positions: Vec<DVec3>,
     energies: Vec<f64>,
     spheres: usize,
+}
+
+/// Up to when a reference means something.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Horizon {
+    /// The time at which the worst displaced run has grown by 1e6, s; none if none has up to the reference's end.
+    pub time: Option<f64>,
+    /// The largest growth of a displacement up to there, dimensionless.
+    pub growth: f64,
+}
+
+impl Horizon {
+    /// The horizon before any displaced run.
+    pub(super) fn unknown() -> Horizon {
+        Horizon { time: None, growth: 1.0 }
+    }
 }
 
 /// What `exact` runs with as the reference: frames as long as the run, since they only say where to pause.
@@ -41,51 +53,22 @@ pub(super) fn settings(until: f64) -> Settings {
 }
 
 impl Reference {
-    /// Runs a scene to `until` (s) by `exact` and finds its horizon; by `moreau` at its finest where `exact` stalls or
-    /// takes more than `budget` events, if that method gets farther.
+    /// The run itself by `settings` up to `until` (s), its horizon not yet known; and why it ended before, if it did.
     ///
     /// # Errors
-    /// If `go_on` says no.
-    pub fn of(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
-        let (mut reference, cut) = Reference::by(scene, settings(until), until, budget, go_on)?;
-        if let Some(cut) = cut {
-            reference.doubt = format!("exact {} at {} s", describe(&cut), decimal(reference.end));
-            let (name, dt, tolerance) = STAND_IN;
-            if let Some(method) = Method::from_name(name) {
-                let finest = Settings { method, dt, tolerance };
-                let (stand_in, _) = Reference::by(scene, finest, until, Budget::UNLIMITED, go_on)?;
-                if stand_in.end > reference.end {
-                    let doubt = format!("reference is {name} dt {dt:e} because {}", reference.doubt);
-                    reference = Reference { doubt, ..stand_in };
-                }
-            }
-        }
-        reference.horizon = horizon::of(scene, &reference, budget, go_on)?;
-        Ok(reference)
-    }
-
-    /// The same by `exact` alone, up to `until` (s) or as far as `budget` events take it.
-    ///
-    /// # Errors
-    /// If `go_on` says no.
-    pub fn brief(scene: &Scene, until: f64, budget: Budget, go_on: GoOn) -> Result<Reference, Interrupted> {
-        let (mut reference, _) = Reference::by(scene, settings(until), until, budget, go_on)?;
-        reference.horizon = horizon::of(scene, &reference, budget, go_on)?;
-        Ok(reference)
-    }
-
-    fn by(
+    /// If `go_on` returns false.
+    pub(super) fn by(
         scene: &Scene,
         settings: Settings,
         until: f64,
         budget: Budget,
         go_on: GoOn,
-    ) -> Result<(Reference, Option<Cut>), Interrupted> {
+    ) -> Result<(Reference, Option<EndReason>), Interrupted> {
         let mut simulation = Simulation::new(scene, settings);
         let model = simulation.model().clone();
         let instants = Instants::new(until, model.len());
         let (mut positions, mut energies) = (Vec::new(), Vec::new());
-        let walked = walk(&mut simulation, instants, budget, go_on, |_, state| {
+        let sampled = sample(&mut simulation, instants, budget, go_on, |_, state| {
             positions.extend_from_slice(&state.x);
             energies.push(state.energy(&model));
             ControlFlow::Continue(())
@@ -93,16 +76,16 @@ impl Reference {
         let reference = Reference {
             settings,
             instants,
-            end: walked.end,
-            impacts: walked.impacts,
-            tallies: walked.tallies,
+            end: sampled.end,
+            impacts: sampled.impacts,
+            tallies: sampled.tallies,
             horizon: Horizon::unknown(),
             doubt: String::new(),
             positions,
             energies,
             spheres: model.len(),
         };
-        Ok((reference, walked.cut))
+        Ok((reference, sampled.end_reason))
     }
 
     /// Where the spheres are at instant `k`, m by index; none beyond the reference's end.
@@ -125,13 +108,5 @@ impl Reference {
     /// Until when positions can be compared, s: the horizon, or how far the reference got.
     pub fn meaningful(&self) -> f64 {
         self.horizon.time.map_or(self.end, |horizon| horizon.min(self.end))
-    }
-}
-
-fn describe(cut: &Cut) -> String {
-    match cut {
-        Cut::Stalled(stall) => format!("stalls ({})", stall.kind),
-        Cut::Spent => "passes its budget".into(),
-        Cut::Enough => "was stopped".into(),
     }
 }

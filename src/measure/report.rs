@@ -5,10 +5,9 @@ use std::fmt::Write;
 use super::chart::chart;
 use super::front::{cheapest, front};
 use super::sweep::Yardstick;
-use super::trade::STALLED;
 use crate::export::TradeRow;
-use crate::physics::Method;
-use crate::printable;
+use crate::format;
+use crate::scene::Method;
 
 /// Growth from which positions are worse than rounding by so much that a reader should know.
 const GROWN: f64 = 100.0;
@@ -40,10 +39,10 @@ fn heading(rows: &[TradeRow], yardstick: Option<&Yardstick>) -> String {
     let growth = yardstick.map(|yardstick| yardstick.growth).filter(|growth| *growth > GROWN);
     let growth = growth.map(|growth| format!(" (growth {growth:.0e})")).unwrap_or_default();
     let horizon = match rows[0].horizon {
-        Some(time) => format!("horizon {} s: beyond it positions mean nothing", plain(time)),
+        Some(time) => format!("horizon {} s: beyond it positions mean nothing", format::time(time)),
         None => format!("horizon none{growth}: positions mean something to the end"),
     };
-    format!("{}: {} s; {horizon}", rows[0].scene, plain(until))
+    format!("{}: {} s; {horizon}", rows[0].scene, format::time(until))
 }
 
 /// Errors in m and s, energy and depth as parts; gaps computed, CPU time per simulated second and its spread.
@@ -54,8 +53,10 @@ fn table(rows: &[TradeRow], best: &[usize]) -> String {
     let mut notes: Vec<String> = Vec::new();
     let mut text = String::from(COLUMNS) + "\n";
     for (index, row) in rows.iter().enumerate() {
-        let letters: String =
-            row.note.split("; ").filter(|note| !note.is_empty()).map(|n| letter(n, &mut notes)).collect();
+        // Runs that stalled share a letter, whenever and why they did.
+        let stalled = row.note.stalled.as_ref().map(|_| "stalled before the end; when and why: --csv");
+        let phrases = stalled.into_iter().chain(row.note.doubts.iter().map(String::as_str));
+        let letters: String = phrases.map(|phrase| letter(phrase, &mut notes)).collect();
         let mark = if best.contains(&index) { '*' } else { ' ' };
         text += format!("{mark} {} {letters}", cells(row)).trim_end();
         text.push('\n');
@@ -67,8 +68,8 @@ fn table(rows: &[TradeRow], best: &[usize]) -> String {
 }
 
 fn cells(row: &TradeRow) -> String {
-    let knob = |value: Option<f64>| value.map(power).unwrap_or_default();
-    let figure = |value: Option<f64>| value.map_or("-".into(), |value| short(value, 1));
+    let knob = |value: Option<f64>| value.map(format::power).unwrap_or_default();
+    let figure = |value: Option<f64>| value.map_or("-".into(), |value| format::digits(value, 1));
     format!(
         "{:6} {:4} {:5} {:>7} {:>7} {:>7} {:>7} {:>5} {:>5} {:>7} {:>3}",
         row.method,
@@ -78,16 +79,15 @@ fn cells(row: &TradeRow) -> String {
         figure(row.impact_time_error),
         format!("{}/{}", row.common_events, row.impacts),
         figure(row.energy_error),
-        short(row.deepest_degree, 0),
-        short(row.evaluations as f64, 1),
-        row.cpu_per_s.map_or("-".into(), duration),
-        row.cpu_spread.map(percent).unwrap_or_default(),
+        format::digits(row.deepest_degree, 0),
+        format::digits(row.evaluations as f64, 1),
+        row.cpu_per_s.map_or("-".into(), format::duration),
+        row.cpu_spread.map(format::spread).unwrap_or_default(),
     )
 }
 
-/// The letter of a note; notes that differ in their figures only share one.
+/// The letter of a phrase, entered among the notes if it is new there.
 fn letter(note: &str, notes: &mut Vec<String>) -> char {
-    let note = if note.starts_with(STALLED) { "stalled before the end; when and why: --csv" } else { note };
     let index = notes.iter().position(|known| known == note).unwrap_or_else(|| {
         notes.push(note.into());
         notes.len() - 1
@@ -95,57 +95,10 @@ fn letter(note: &str, notes: &mut Vec<String>) -> char {
     char::from(b'a' + index as u8 % 26)
 }
 
-/// 0, or with so many digits after the first: 4.9e-2.
-pub(super) fn short(value: f64, digits: usize) -> String {
-    if value == 0.0 { "0".into() } else { format!("{value:.digits$e}") }
-}
-
-fn percent(part: f64) -> String {
-    if part >= FIXED {
-        return format!("{part:.0e}×");
-    }
-    if part < 0.995 { format!("{:.0}%", part * 100.0) } else { format!("{:.0}×", part + 1.0) }
-}
-
-/// A time with three digits and its unit.
-pub(super) fn duration(seconds: f64) -> String {
-    if seconds >= FIXED {
-        return format!("{} s", printable::rounded(seconds));
-    }
-    let (value, unit) = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")]
-        .into_iter()
-        .find(|(size, _)| seconds >= *size)
-        .map_or((seconds * 1e9, "ns"), |(size, unit)| (seconds / size, unit));
-    let digits = if value < 10.0 { 2 } else { usize::from(value < 100.0) };
-    format!("{value:.digits$} {unit}")
-}
-
-/// Figures from here on are written with an exponent.
-const FIXED: f64 = 1e9;
-
-/// A time in s with four decimals.
-pub(super) fn decimal(seconds: f64) -> String {
-    if seconds < FIXED { format!("{seconds:.4}") } else { printable::rounded(seconds) }
-}
-
-/// A time in s with at most four decimals.
-pub(super) fn plain(seconds: f64) -> String {
-    let text = decimal(seconds);
-    if seconds >= FIXED {
-        return text;
-    }
-    text.trim_end_matches('0').trim_end_matches('.').into()
-}
-
-/// A knob's value with its power of ten; 0 is 0.
-fn power(value: f64) -> String {
-    if value == 0.0 { "0".into() } else { format!("{value:e}") }
-}
-
 /// A setting in words.
 pub(super) fn setting(method: &str, dt: Option<f64>, tolerance: Option<f64>) -> String {
-    let dt = dt.map(|dt| format!(", dt {} s", power(dt))).unwrap_or_default();
-    let tolerance = tolerance.map(|tolerance| format!(", tolerance {}", power(tolerance))).unwrap_or_default();
+    let dt = dt.map(|dt| format!(", dt {} s", format::power(dt))).unwrap_or_default();
+    let tolerance = tolerance.map(|tolerance| format!(", tolerance {}", format::power(tolerance))).unwrap_or_default();
     format!("{method}{dt}{tolerance}")
 }
 
@@ -158,12 +111,13 @@ fn sentences(rows: &[TradeRow], best: &[usize]) -> String {
             (from, to) if from == to => format!("an error up to {to:e} m"),
             (from, to) => format!("errors of {from:e} down to {to:e} m"),
         };
-        let (cost, error) = (row.cpu_per_s.map(duration).unwrap_or_default(), row.position_error.unwrap_or(0.0));
+        let (cost, error) =
+            (row.cpu_per_s.map(format::duration).unwrap_or_default(), row.position_error.unwrap_or(0.0));
         let _ = writeln!(
             text,
             "Cheapest for {range}: {};\n  {cost} per simulated second, error {} m.",
             setting(&row.method, row.dt, row.tolerance),
-            short(error, 1),
+            format::digits(error, 1),
         );
     }
     if text.is_empty() { "No setting that may compete reached the end within 1 m.\n".into() } else { text }
@@ -184,27 +138,5 @@ fn price(rows: &[TradeRow], best: &[usize], yardstick: Option<&Yardstick>) -> St
         (1, _) => ";\n  one setting on the front costs less".into(),
         (count, _) => format!(";\n  {count} settings on the front cost less"),
     };
-    format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", duration(price))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations_have_three_digits_and_a_unit() {
-        let words = [2.0, 0.0123, 4.5e-6, 1.5e-8, 123e-6, 0.0].map(duration);
-        assert_eq!(words, ["2.00 s", "12.3 ms", "4.50 µs", "15.0 ns", "123 µs", "0.00 ns"]);
-    }
-
-    #[test]
-    fn no_figure_has_a_row_of_zeros() {
-        let largest = [duration(1e308), percent(1e308), plain(1e308), decimal(1e308)];
-        assert_eq!(largest, ["1e308 s", "1e308×", "1e308", "1e308"]);
-    }
-
-    #[test]
-    fn spreads_are_percents_up_to_twice_and_then_factors() {
-        assert_eq!([0.034, 0.99, 1.0, 4.2].map(percent), ["3%", "99%", "2×", "5×"]);
-    }
+    format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", format::duration(price))
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::export::TradeRow;
-use crate::physics::Method;
 use crate::printable;
+use crate::scene::Method;
 
 /// Part `index` (from 1) of `count`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

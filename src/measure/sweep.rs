@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::cost::cost;
+use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::shard::Shard;
 use super::trade::Subject;
-use super::{GoOn, Interrupted};
 use crate::export::TradeRow;
-use crate::physics::{Method, Scene};
+use crate::scene::{Method, Scene};
 
 /// Weight of a run that takes no steps, in steps: events, set-up and timing.
 const EVENTFUL: f64 = 2e3;
@@ -49,7 +49,7 @@ pub struct Yardstick {
     pub growth: f64,
 }
 
-/// What a sweep is doing, for whoever waits.
+/// How far a sweep is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
     /// Settings done.
@@ -84,7 +84,7 @@ impl Sweep {
         self.tasks().len()
     }
 
-    /// Measures, with so many threads. What was done when `go_on` said no is kept.
+    /// Measures, with so many threads. What was done when `go_on` returned false is kept.
     pub fn run(&self, jobs: usize, go_on: GoOn, advanced: &(dyn Fn(Advance) + Sync)) -> Measured {
         let tasks = self.tasks();
         let needed = |scene: usize| tasks.iter().any(|task| task.0 == scene);

@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 
 use super::cost::{Cost, cost};
 use super::deviation::{Deviation, common_impacts, impact_time_error};
+use super::interrupt::{GoOn, Interrupted};
 use super::ladder::Rung;
 use super::reference::Reference;
-use super::report::decimal;
-use super::walk::{Budget, Cut, Instants, Walk, walk};
-use super::{GoOn, Interrupted};
-use crate::export::TradeRow;
-use crate::physics::{Method, Scene, Settings, Simulation};
+use super::sample::{Budget, EndReason, Instants, Sampled, sample};
+use crate::export::{Note, TradeRow};
+use crate::format;
+use crate::physics::Simulation;
+use crate::scene::{Method, Scene, Settings};
 
 /// A horizon below this part of the run is short: most of the run cannot be judged by positions.
 const SHORT: f64 = 0.5;
@@ -36,14 +37,14 @@ pub struct Errors {
     /// the end where the reference conserves energy. None if the reference has no energy at all.
     pub energy: Option<f64>,
     /// The run as read.
-    pub walk: Walk,
+    pub run: Sampled,
 }
 
 /// Runs a setting beside a reference, up to the reference's last instant; given up once the deviation exceeds `limit`
 /// (m). `exact` gets no more than a reference would.
 ///
 /// # Errors
-/// If `go_on` says no.
+/// If `go_on` returns false.
 pub fn errors(
     scene: &Scene,
     settings: Settings,
@@ -56,7 +57,7 @@ pub fn errors(
     let (meaningful, judged) = (reference.meaningful(), judged(reference));
     let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
     let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
-    let walk = walk(&mut simulation, reference.instants, budget, go_on, |k, state| {
+    let run = sample(&mut simulation, reference.instants, budget, go_on, |k, state| {
         if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
             compared = state.t;
             let now = Deviation::between(&state.x, wanted);
@@ -69,13 +70,13 @@ pub fn errors(
     })?;
     let scale = reference.energy_scale();
     Ok(Errors {
-        end: walk.end,
+        end: run.end,
         position,
         compared,
-        impact_time: impact_time_error(&walk.impacts, &reference.impacts),
-        common: common_impacts(&walk.impacts, &reference.impacts),
+        impact_time: impact_time_error(&run.impacts, &reference.impacts),
+        common: common_impacts(&run.impacts, &reference.impacts),
         energy: (scale > 0.0).then(|| energy / scale),
-        walk,
+        run,
     })
 }
 
@@ -100,7 +101,7 @@ impl Subject {
     /// The reference run to the scene's duration.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
         let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
         Ok(Subject { key: key.into(), scene, reference })
@@ -109,13 +110,13 @@ impl Subject {
     /// Measures one setting: errors in one run, cost in others.
     ///
     /// # Errors
-    /// If `go_on` says no.
+    /// If `go_on` returns false.
     pub fn measure(&self, rung: Rung, go_on: GoOn) -> Result<TradeRow, Interrupted> {
         let Instants { until, .. } = self.reference.instants;
         let settings = rung.settings(until);
         let errors = errors(&self.scene, settings, &self.reference, f64::INFINITY, go_on)?;
         let cost = cost(&self.scene, settings, errors.end, go_on)?;
-        let doubts = self.doubts(&errors, &cost);
+        let note = self.note(&errors, &cost);
         Ok(TradeRow {
             scene: self.key.clone(),
             method: rung.method.name().into(),
@@ -127,27 +128,24 @@ impl Subject {
             impact_time_error: errors.impact_time,
             common_events: errors.common as u64,
             energy_error: errors.energy,
-            deepest_degree: errors.walk.tallies.deepest_degree,
-            impacts: errors.walk.impacts.len() as u64,
-            evaluations: errors.walk.tallies.evaluations,
+            deepest_degree: errors.run.tallies.deepest_degree,
+            impacts: errors.run.impacts.len() as u64,
+            evaluations: errors.run.tallies.evaluations,
             cpu_per_s: Some(cost.cpu_per_s).filter(|cost| cost.is_finite()), // of a run that stalls at its start
             cpu_spread: cost.spread,
-            note: doubts.join("; "),
+            note,
         })
     }
 
-    /// What speaks against the figures of a run, a phrase each: first what repeats, then what the clock says.
-    fn doubts(&self, errors: &Errors, cost: &Cost) -> Vec<String> {
+    /// Reasons to doubt the figures of a run, a phrase each: first those that repeat, then those of the clock.
+    fn note(&self, errors: &Errors, cost: &Cost) -> Note {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
+        let stalled = errors.run.end_reason.as_ref().map(|end_reason| match end_reason {
+            EndReason::Stalled(stall) => format!("{} s ({})", format::seconds(stall.time), stall.kind),
+            EndReason::Spent | EndReason::Enough => format!("{} s (passes its budget)", format::seconds(errors.end)),
+        });
         let mut doubts = Vec::new();
-        match &errors.walk.cut {
-            Some(Cut::Stalled(stall)) => doubts.push(format!("{STALLED} {} s ({})", decimal(stall.time), stall.kind)),
-            Some(Cut::Spent | Cut::Enough) => {
-                doubts.push(format!("{STALLED} {} s (passes its budget)", decimal(errors.end)))
-            }
-            None => {}
-        }
         if !doubt.is_empty() {
             doubts.push(doubt.clone());
         }
@@ -161,9 +159,6 @@ impl Subject {
             doubts.push("lacks one of the first impacts".into());
         }
         doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
-        doubts
+        Note { stalled, doubts }
     }
 }
-
-/// How the note of a run that did not reach the end begins.
-pub(super) const STALLED: &str = "stalled at";

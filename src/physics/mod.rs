@@ -165,6 +165,10 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// Units of work that take some milliseconds in most scenes: so soon a caller of [`Simulation::advance`] can look at
+    /// what else there is to do. No bit of a result depends on it.
+    pub const SLICE: u64 = 20_000;
+
     /// A simulation of `scene` at t = 0, the contacts found there already handled.
     pub fn new(scene: &Scene, settings: Settings) -> Simulation {
         let model = Model::new(scene);
@@ -200,6 +204,19 @@ impl Simulation {
             self.stall = Some(stall.clone());
         }
         progress
+    }
+
+    /// Goes on until a frame ends at or after `time` (s), call by call of [`Simulation::advance`]. Before each call `next`
+    /// sees the run and says how many units of work come next; by `None` it stops the run, and the answer is
+    /// [`Progress::Yielded`].
+    pub fn run_to(&mut self, time: f64, mut next: impl FnMut(&mut Simulation) -> Option<u64>) -> Progress {
+        loop {
+            let Some(work) = next(self) else { return Progress::Yielded };
+            match self.advance(Until::Time(time), work) {
+                Progress::Yielded => {}
+                end => return end,
+            }
+        }
     }
 
     /// Time at the end of the last frame, s.

@@ -49,36 +49,15 @@ pub(super) fn close_names(name: &str) -> Vec<&'static str> {
     if name.chars().count() > 40 {
         return Vec::new();
     }
-    let off = |known: &str| if !name.is_empty() && known.contains(name) { 0 } else { distance(name, known) };
+    let off = |known: &str| if !name.is_empty() && known.contains(name) { 0 } else { strsim::levenshtein(name, known) };
     let mut names: Vec<_> = ALL.iter().map(|builtin| (off(builtin.name), builtin.name)).collect();
     names.sort_by_key(|&(off, _)| off);
     names.into_iter().take_while(|&(off, _)| off <= 3).map(|(_, known)| known).take(5).collect()
 }
 
-/// Letters to insert, drop or replace between two words (Levenshtein).
-fn distance(from: &str, to: &str) -> usize {
-    let to: Vec<char> = to.chars().collect();
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (i, a) in from.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, &b) in to.iter().enumerate() {
-            let replaced = diagonal + usize::from(a != b);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[to.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn kitten_is_three_letters_from_sitting() {
-        assert_eq!(distance("kitten", "sitting"), 3);
-        assert_eq!(distance("", "abc"), 3);
-    }
 
     #[test]
     fn a_slip_of_the_finger_finds_its_scene() {

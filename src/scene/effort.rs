@@ -33,7 +33,7 @@ impl Effort {
         self.left.get() == 0
     }
 
-    /// What to say then.
+    /// The refusal of a scene that takes more.
     pub(super) fn refusal() -> String {
         format!(
             "placing and checking its bodies takes more than {MOST:e} comparisons, which is refused; allowed are fewer \

@@ -4,7 +4,6 @@ use std::fmt;
 
 use super::locate::{Position, Step, locate};
 use crate::printable::shortened;
-pub(super) use crate::printable::{number as show, rounded as show_rounded};
 
 /// Longest text quoted from a file, characters.
 pub(super) const QUOTE: usize = 60;

@@ -3,10 +3,10 @@
 use serde::Deserialize;
 use serde_path_to_error::Segment;
 
-use super::error::{Error, Source, quote};
+use super::error::{Error, QUOTE, Source, quote};
 use super::locate::{Position, Step, locate, position, rest_at};
 use super::number::{Amount, Count, Fraction, Interval, NotNegative, Positive, Rgb, Text, Vector, method};
-use super::{Method, error::QUOTE};
+use super::validated::Method;
 use crate::printable::shortened;
 
 /// A scene file.
@@ -110,7 +110,7 @@ pub(super) enum SphereFile {
 
 /// Reads the text of a scene.
 pub(super) fn read(source: Source) -> Result<SceneFile, Error> {
-    // Optional fields are written as plain values, as the whole format is: `Some(…)` is noise to who writes by hand.
+    // Optional fields are written as plain values, as the whole format is: `Some(…)` is noise in a file written by hand.
     let options = ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
     let mut deserializer = ron::Deserializer::from_str_with_options(source.text, &options)
         .map_err(|error| refusal(source, &[], error.code, error.span))?;

@@ -9,11 +9,11 @@ use std::f64::consts::{FRAC_PI_6, SQRT_2};
 
 use glam::DVec3;
 
-use super::Sphere;
 use super::effort::{Effort, SLANTED};
-use super::error::{show, show_rounded};
-use super::generate::SplitMix64;
+use super::validated::Sphere;
+use crate::format::{number, rounded};
 use crate::geometry::{Bounds, Parallelogram};
+use crate::random::SplitMix64;
 
 /// Packing fraction up to which random insertion is tried. A million spheres took 1.8 draws each at 0.11 and 4.1 at 0.2;
 /// at 0.3, sixty each were not enough.
@@ -51,14 +51,14 @@ pub(super) fn strewn(
     let inner = bounds.grown(-r);
     let size = bounds.size();
     if inner.size().min_element() < 0.0 {
-        let (radius, edge) = (show(r), show_rounded(size.min_element()));
+        let (radius, edge) = (number(r), rounded(size.min_element()));
         return Err(format!(
             "a box with an edge of {edge} m is refused; allowed is at least twice the radius of {radius} m"
         ));
     }
     let fraction = count as f64 * FRAC_PI_6 * (2.0 * r / size.x) * (2.0 * r / size.y) * (2.0 * r / size.z);
     let too_many = |placed: usize| {
-        let fraction = show_rounded(fraction);
+        let fraction = rounded(fraction);
         let room = "allowed are fewer or smaller spheres or a larger box (up to about 0.3 of it can be filled)";
         format!("{count} spheres, {fraction} of the box, do not fit: {placed} found a place; {room}")
     };

@@ -1,10 +1,11 @@
-//! What one line of a scene expands to: `Room`, `Lattice` and the drawn numbers of all generators. A seed means the
+//! What one line of a scene expands to: a `Room`, a `Lattice`, the velocities of a gas. A seed means the
 //! same bits everywhere: only + − × ÷ √, in a fixed order.
 
 use glam::DVec3;
 
-use super::{Color, Wall};
+use super::validated::{Color, Wall};
 use crate::geometry::{Bounds, Parallelogram};
+use crate::random::SplitMix64;
 
 /// The paper's colours: room, right wall, left wall.
 const ROOM: Color = [0.725, 0.71, 0.68];
@@ -13,48 +14,6 @@ const RED: Color = [0.63, 0.065, 0.05];
 
 /// The sides of a room, in the order of its walls.
 pub(super) const SIDES: [&str; 6] = ["floor", "ceiling", "back", "front", "right", "left"];
-
-/// SplitMix64 (Steele, Lea and Flood, 2014): one 64-bit word of state, every seed as good as the next.
-#[derive(Debug, Clone)]
-pub(super) struct SplitMix64(u64);
-
-impl SplitMix64 {
-    /// The stream of a seed.
-    pub(super) fn new(seed: u64) -> SplitMix64 {
-        SplitMix64(seed)
-    }
-
-    /// The next 64 bits.
-    pub(super) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// The next number in [0, 1): the top 53 bits, over 2⁵³.
-    pub(super) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Three numbers in [0, 1), x first.
-    pub(super) fn units(&mut self) -> DVec3 {
-        let x = self.unit();
-        let y = self.unit();
-        DVec3::new(x, y, self.unit())
-    }
-
-    /// A number of mean 0 and variance 1, nearly normal: the sum of twelve units minus six. No logarithm, no cosine,
-    /// hence the same bits everywhere; no value beyond ±6.
-    fn normal(&mut self) -> f64 {
-        (0..12).fold(-6.0, |sum, _| sum + self.unit())
-    }
-
-    /// A whole number in [0, bound).
-    pub(super) fn below(&mut self, bound: usize) -> usize {
-        ((self.unit() * bound as f64) as usize).min(bound - 1)
-    }
-}
 
 /// The six walls of a room that fills `bounds` (m), in the paper's order and directions; in the paper's colours unless
 /// `color` is given.
@@ -114,35 +73,6 @@ pub(super) fn thermal(count: usize, speed: f64, draw: &mut SplitMix64) -> Vec<DV
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn splitmix64_gives_the_published_numbers() {
-        // Sebastiano Vigna's splitmix64.c with seed 1234567, as listed at Rosetta Code ("Pseudo-random numbers/Splitmix64").
-        let mut draw = SplitMix64::new(1_234_567);
-        let published: [u64; 5] = [
-            6_457_827_717_110_365_317,
-            3_203_168_211_198_807_973,
-            9_817_491_932_198_370_423,
-            4_593_380_528_125_082_431,
-            16_408_922_859_458_223_821,
-        ];
-        assert_eq!(published.map(|_| draw.bits()), published);
-        // The first words for seed 0, as in Java's SplittableRandom and the test vectors of xoshiro's authors.
-        let mut draw = SplitMix64::new(0);
-        assert_eq!([draw.bits(), draw.bits()], [0xe220_a839_7b1d_cdaf, 0x6e78_9e6a_a1b9_65f4]);
-    }
-
-    #[test]
-    fn units_fill_their_interval_evenly() {
-        let mut draw = SplitMix64::new(3);
-        let (n, bins) = (100_000, 10);
-        let mut counted = vec![0_u32; bins];
-        for _ in 0..n {
-            counted[(draw.unit() * bins as f64) as usize] += 1;
-        }
-        // Expected 10 000 each, standard deviation 95: five of them.
-        assert!(counted.iter().all(|&count| count.abs_diff(10_000) < 475), "{counted:?}");
-    }
 
     #[test]
     fn a_room_is_the_paper_s_table() {

@@ -5,8 +5,9 @@ use std::fmt;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::error::{quote, show};
-use super::{Color, Method};
+use super::error::quote;
+use super::validated::{Color, Method};
+use crate::format::number;
 use crate::printable::{described, is_printable};
 
 /// Largest magnitude of a coordinate, speed, mass or radius, in SI units. Beyond it the products of the solvers
@@ -17,7 +18,7 @@ pub(super) const SMALLEST: f64 = 1e-30;
 /// Most spheres in a scene.
 pub(super) const MOST_SPHERES: usize = 1_000_000;
 /// Most walls in a scene, a room's six counted. Every sphere of `paper` asks for every wall in every frame, so that more
-/// would be of no use to anybody.
+/// would be of no use.
 pub(super) const MOST_WALLS: usize = 100_000;
 /// Longest name or `about`, characters.
 const LONGEST_TEXT: usize = 300;
@@ -35,13 +36,19 @@ macro_rules! number {
 
             fn try_from(value: f64) -> Result<$name, String> {
                 let passes: fn(f64) -> bool = $passes;
-                let refusal = || format!("{} is refused; allowed is {}", show(value), $allowed);
+                let refusal = || format!("{} is refused; allowed is {}", number(value), $allowed);
                 passes(value).then_some($name(value)).ok_or_else(refusal)
             }
         }
     };
 }
 
+number!(
+    /// A coordinate or a component of a velocity where a run has taken it.
+    Finite,
+    |value| value.is_finite(),
+    "a finite number"
+);
 number!(
     /// A coordinate or a component of a vector.
     Number,
@@ -91,7 +98,7 @@ impl TryFrom<f64> for Count {
         if value % 1.0 == 0.0 && (1.0..=MOST_SPHERES as f64).contains(&value) {
             Ok(Count(value as usize))
         } else {
-            Err(format!("{} is refused; allowed is a whole number from 1 to {MOST_SPHERES}", show(value)))
+            Err(format!("{} is refused; allowed is a whole number from 1 to {MOST_SPHERES}", number(value)))
         }
     }
 }

@@ -5,8 +5,12 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use super::builtin;
 use super::error::{Error, Source, quote};
-use super::{Scene, builtin, key, parse};
+use super::key::key;
+use super::locate::position;
+use super::parse::parse;
+use super::validated::Scene;
 use crate::printable;
 
 /// Largest file that is read, bytes.
@@ -82,7 +86,7 @@ pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
 fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Error {
     let (valid, wrong) = error.as_bytes().split_at(error.utf8_error().valid_up_to());
     let text = str::from_utf8(valid).unwrap_or_default();
-    let place = super::locate::position(text, text.len());
+    let place = position(text, text.len());
     let byte = wrong.first().copied().unwrap_or_default();
     let message = format!("the byte 0x{byte:02x} is refused; allowed is text in UTF-8");
     Source { text, origin }.refuse_at(Some(place), &[], message)

@@ -1,11 +1,12 @@
 //! Which bodies overlap at the start, by more than rounding.
 
+use super::bodies::Bodies;
 use super::effort::{Effort, SLANTED};
-use super::error::{Error, Source, show_rounded};
+use super::error::{Error, Source};
 use super::locate::Step::{Field, Index};
 use super::near::Tree;
-use super::rules::Bodies;
-use super::{Sphere, Wall};
+use super::validated::{Sphere, Wall};
+use crate::format::rounded;
 use crate::geometry::Bounds;
 
 /// Overlap that a scene may start with, in radii (of a pair: in sums of radii).
@@ -26,7 +27,7 @@ pub(super) fn refuse_overlaps(
         tree.first(|bounds| bounds.touches(&boxes[a]), hit).map(|b| (a, b))
     };
     let refuse = |(a, later): (usize, usize), other: String, depth: Option<f64>| {
-        let (one, depth) = (spheres.describe(a), show_rounded(depth.unwrap_or(0.0)));
+        let (one, depth) = (spheres.describe(a), rounded(depth.unwrap_or(0.0)));
         let message = format!("{one} overlaps {other} by {depth} m; allowed is up to 1e-9 of the radius");
         source.refuse(&[Field("spheres"), Index(spheres.entry(later))], message)
     };

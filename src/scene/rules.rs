@@ -3,38 +3,43 @@
 
 use glam::DVec3;
 
+use super::bodies::Bodies;
 use super::effort::Effort;
-use super::error::{Error, Source, quote, show, show_rounded};
+use super::error::{Error, Source};
 use super::file::{BoxFile, ContactFile, SceneFile, SolverFile, SphereFile, WallFile};
 use super::gas::{Obstacles, strewn};
-use super::generate::{SIDES, SplitMix64, lattice, room, thermal};
+use super::generate::{lattice, room, thermal};
+use super::key::key;
 use super::locate::Step::{self, Field, Index};
-use super::number::{Amount, LARGEST, SMALLEST};
+use super::number::{Amount, LARGEST, Positive, Rgb, SMALLEST};
 use super::overlaps::refuse_overlaps;
-use super::size::refuse_too_large;
-use super::{ContactLaw, Method, Scene, Settings, Sphere, Wall};
+use super::size::{refuse_too_large, refuse_too_many};
+use super::validated::{ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};
+use super::values::refuse_values;
+use crate::format::{number, rounded};
 use crate::geometry::{Bounds, Parallelogram};
+use crate::random::SplitMix64;
 
 /// Sine of the angle below which two edges count as parallel: their plane would be rounding alone.
 const PARALLEL: f64 = 1e-9;
 /// Walls that reach so many times beyond the spheres' box are not shown whole.
 const BEYOND: f64 = 20.0;
 /// How long a run lasts, s, if the scene does not say.
-const DURATION: f64 = 20.0;
+pub(super) const DURATION: f64 = 20.0;
 
 /// The scene of a file, if it meets every rule.
 pub(super) fn validated(file: SceneFile, source: Source) -> Result<Scene, Error> {
     let effort = Effort::whole();
     refuse_too_large(&file, source)?;
-    let walls = Bodies::walls(&file.walls, source)?;
-    let spheres = Bodies::spheres(&file.spheres, (&walls.list, &effort), source)?;
+    let walls = walls(&file.walls, source)?;
+    let spheres = spheres(&file.spheres, (&walls.list, &effort), source)?;
     refuse_overlaps(&walls, &spheres, &effort, source)?;
     let view = match file.view {
-        Some(view) => bounds(view, &[Field("view")], source)?,
+        Some(view) => bounds(corners(view), &[Field("view")], source)?,
         None => default_view(&walls.list, &spheres.list),
     };
-    Ok(Scene {
-        name: file.name.map_or_else(|| super::key(source.origin.as_ref()), |name| name.0),
+    Ok(Scene::sealed(Draft {
+        name: file.name.map_or_else(|| key(source.origin.as_ref()), |name| name.0),
         about: file.about.0,
         gravity: file.gravity.0,
         contact: contact_law(&file.contact),
@@ -43,11 +48,25 @@ pub(super) fn validated(file: SceneFile, source: Source) -> Result<Scene, Error>
         view,
         walls: walls.list,
         spheres: spheres.list,
-    })
+    }))
+}
+
+/// The scene of a draft, if it meets every rule.
+pub(super) fn checked(mut draft: Draft, source: Source) -> Result<Scene, Error> {
+    refuse_too_many(&draft, source)?;
+    refuse_values(&draft, source)?;
+    draft.view = bounds(draft.view, &[Field("view")], source)?;
+    for (index, wall) in draft.walls.iter().enumerate() {
+        refuse_degenerate(&wall.shape, &[Field("walls"), Index(index)], source)?;
+    }
+    let walls = Bodies::one_by_one(std::mem::take(&mut draft.walls));
+    let spheres = Bodies::one_by_one(std::mem::take(&mut draft.spheres));
+    refuse_overlaps(&walls, &spheres, &Effort::whole(), source)?;
+    Ok(Scene::sealed(Draft { walls: walls.list, spheres: spheres.list, ..draft }))
 }
 
 /// The contact law, with the paper's values where the file gives none.
-fn contact_law(file: &ContactFile) -> ContactLaw {
+pub(super) fn contact_law(file: &ContactFile) -> ContactLaw {
     let restitution = file.restitution.map_or(0.8, |e| e.0);
     ContactLaw {
         restitution,
@@ -58,7 +77,7 @@ fn contact_law(file: &ContactFile) -> ContactLaw {
 }
 
 /// What to solve with, with the paper's values where the file gives none.
-fn settings(file: &SolverFile) -> Settings {
+pub(super) fn settings(file: &SolverFile) -> Settings {
     Settings {
         method: file.method.unwrap_or(Method::Paper),
         dt: file.dt.map_or(0.01, |dt| dt.0),
@@ -66,79 +85,44 @@ fn settings(file: &SolverFile) -> Settings {
     }
 }
 
+fn corners(file: BoxFile) -> Bounds {
+    Bounds { min: file.min.0, max: file.max.0 }
+}
+
 /// A box with a volume.
-fn bounds(file: BoxFile, path: &[Step], source: Source) -> Result<Bounds, Error> {
-    let (min, max) = (file.min.0, file.max.0);
+fn bounds(corners: Bounds, path: &[Step], source: Source) -> Result<Bounds, Error> {
+    let Bounds { min, max } = corners;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         if min[axis] >= max[axis] {
-            let (min, max) = (show(min[axis]), show(max[axis]));
+            let (min, max) = (number(min[axis]), number(max[axis]));
             let message = format!("along {name}, min {min} and max {max} are refused; allowed is a min below its max");
             return Err(source.refuse(path, message));
         }
     }
-    Ok(Bounds { min, max })
+    Ok(corners)
 }
 
-/// Bodies and, for each, the entry of the file that it came from.
-pub(super) struct Bodies<T> {
-    pub(super) list: Vec<T>,
-    entries: Vec<u32>,
-}
-
-impl<T> Bodies<T> {
-    fn new() -> Bodies<T> {
-        Bodies { list: Vec::new(), entries: Vec::new() }
-    }
-
-    fn extend(&mut self, entry: usize, bodies: impl IntoIterator<Item = T>) {
-        self.list.extend(bodies);
-        self.entries.resize(self.list.len(), entry as u32);
-    }
-
-    pub(super) fn entry(&self, body: usize) -> usize {
-        self.entries[body] as usize
-    }
-
-    /// Which body of its entry it is, if the entry made several.
-    fn place_in_entry(&self, body: usize) -> Option<usize> {
-        let first = self.entries.partition_point(|&entry| entry < self.entries[body]);
-        let next = self.entries.partition_point(|&entry| entry <= self.entries[body]);
-        (next - first > 1).then_some(body - first)
-    }
-}
-
-impl Bodies<Wall> {
-    fn walls(entries: &[WallFile], source: Source) -> Result<Bodies<Wall>, Error> {
-        let mut walls = Bodies::new();
-        for (entry, wall) in entries.iter().enumerate() {
-            let path = [Field("walls"), Index(entry)];
-            match *wall {
-                WallFile::Wall { center, s1, s2, color } => {
-                    let shape = Parallelogram { center: center.0, s1: s1.0, s2: s2.0 };
-                    refuse_degenerate(&shape, &path, source)?;
-                    walls.extend(entry, [Wall { shape, color: color.map(|color| color.0) }]);
-                }
-                WallFile::Room { min, max, color } => {
-                    let bounds = bounds(BoxFile { min, max }, &path, source)?;
-                    walls.extend(entry, room(bounds, color.map(|color| color.0)));
-                }
+/// The walls that the entries of a file make.
+fn walls(entries: &[WallFile], source: Source) -> Result<Bodies<Wall>, Error> {
+    let mut walls = Bodies::new();
+    for (entry, wall) in entries.iter().enumerate() {
+        let path = [Field("walls"), Index(entry)];
+        match *wall {
+            WallFile::Wall { center, s1, s2, color } => {
+                let shape = Parallelogram { center: center.0, s1: s1.0, s2: s2.0 };
+                refuse_degenerate(&shape, &path, source)?;
+                walls.extend(entry, [Wall { shape, color: color.map(|color| color.0) }]);
+            }
+            WallFile::Room { min, max, color } => {
+                let bounds = bounds(corners(BoxFile { min, max }), &path, source)?;
+                walls.extend(entry, room(bounds, color.map(|color| color.0)));
             }
         }
-        let degenerate = walls.list.iter().position(|wall| fault(&wall.shape).is_some());
-        match degenerate.map(|wall| walls.entry(wall)) {
-            Some(entry) => {
-                Err(source.refuse(&[Field("walls"), Index(entry)], "the room is too thin to have six walls"))
-            }
-            None => Ok(walls),
-        }
     }
-
-    pub(super) fn describe(&self, wall: usize) -> String {
-        let entry = self.entry(wall);
-        match self.place_in_entry(wall) {
-            Some(side) => format!("wall {wall} (the {} of walls[{entry}])", SIDES[side]),
-            None => format!("wall {wall} (walls[{entry}])"),
-        }
+    let degenerate = walls.list.iter().position(|wall| fault(&wall.shape).is_some());
+    match degenerate.map(|wall| walls.entry(wall)) {
+        Some(entry) => Err(source.refuse(&[Field("walls"), Index(entry)], "the room is too thin to have six walls")),
+        None => Ok(walls),
     }
 }
 
@@ -147,7 +131,10 @@ fn fault(shape: &Parallelogram) -> Option<String> {
     let (long1, long2) = (shape.s1.length(), shape.s2.length());
     for (name, long) in [("s1", long1), ("s2", long2)] {
         if long < SMALLEST {
-            return Some(format!("the edge {name} of length {} m is refused; allowed is 1e-30 m or more", show(long)));
+            return Some(format!(
+                "the edge {name} of length {} m is refused; allowed is 1e-30 m or more",
+                number(long)
+            ));
         }
     }
     let sine = (shape.s1 / long1).cross(shape.s2 / long2).length();
@@ -158,36 +145,58 @@ fn refuse_degenerate(shape: &Parallelogram, path: &[Step], source: Source) -> Re
     fault(shape).map_or(Ok(()), |message| Err(source.refuse(path, message)))
 }
 
-impl Bodies<Sphere> {
-    fn spheres(
-        entries: &[SphereFile],
-        (walls, effort): (&[Wall], &Effort),
-        source: Source,
-    ) -> Result<Bodies<Sphere>, Error> {
-        let shapes: Vec<Parallelogram> = walls.iter().map(|wall| wall.shape).collect();
-        let mut spheres = Bodies::new();
-        for (entry, file) in entries.iter().enumerate() {
-            let path = [Field("spheres"), Index(entry)];
-            let made = match file {
-                SphereFile::Gas { min, max, .. } => {
-                    let bounds = bounds(BoxFile { min: *min, max: *max }, &path, source)?;
-                    let obstacles = Obstacles { walls: &shapes, spheres: &spheres.list, effort };
-                    gas(file, bounds, &obstacles).map_err(|message| source.refuse(&path, message))?
-                }
-                SphereFile::Lattice { .. } => crystal(file),
-                SphereFile::Sphere { .. } => single(file),
-            };
-            refuse_far(&made, &path, source)?;
-            spheres.extend(entry, made);
-        }
-        Ok(spheres)
+/// The spheres that the entries of a file make.
+fn spheres(
+    entries: &[SphereFile],
+    (walls, effort): (&[Wall], &Effort),
+    source: Source,
+) -> Result<Bodies<Sphere>, Error> {
+    let shapes: Vec<Parallelogram> = walls.iter().map(|wall| wall.shape).collect();
+    let mut spheres = Bodies::new();
+    for (entry, file) in entries.iter().enumerate() {
+        let path = [Field("spheres"), Index(entry)];
+        let obstacles = Obstacles { walls: &shapes, spheres: &spheres.list, effort };
+        let made = of_entry(file, &obstacles, &path, source)?;
+        refuse_far(&made, &path, source)?;
+        spheres.extend(entry, made);
     }
+    Ok(spheres)
+}
 
-    pub(super) fn describe(&self, sphere: usize) -> String {
-        let entry = self.entry(sphere);
-        let place = self.place_in_entry(sphere).map_or(String::new(), |place| format!(", its number {place}"));
-        let name = self.list[sphere].name.as_deref().map_or(String::new(), |name| format!(", {}", quote(name)));
-        format!("sphere {sphere} (spheres[{entry}]{place}{name})")
+/// The spheres that one entry of a file makes.
+fn of_entry(file: &SphereFile, obstacles: &Obstacles, path: &[Step], source: Source) -> Result<Vec<Sphere>, Error> {
+    match file {
+        SphereFile::Sphere { x, v, mass, radius, force, color, name } => {
+            let name = name.as_ref().map(|name| name.0.clone());
+            Ok(vec![Sphere { x: x.0, v: v.0, force: force.0, name, ..still(*mass, *radius, *color) }])
+        }
+        SphereFile::Lattice { origin, counts, spacing, jitter, seed, mass, radius, v, speed, color } => {
+            let mut draw = SplitMix64::new(*seed);
+            let counts = [counts.0.0, counts.1.0, counts.2.0];
+            let centers = lattice(origin.0, counts, spacing.0, jitter.map_or(0.0, |jitter| jitter.0), &mut draw);
+            let like = Sphere { v: v.0, ..still(*mass, *radius, *color) };
+            Ok(set_in_motion(centers, *speed, &like, &mut draw))
+        }
+        SphereFile::Gas { min, max, count, seed, speed, mass, radius, color } => {
+            let bounds = bounds(corners(BoxFile { min: *min, max: *max }), path, source)?;
+            let mut draw = SplitMix64::new(*seed);
+            let centers = strewn(bounds, count.0, radius.0, obstacles, &mut draw);
+            let centers = centers.map_err(|message| source.refuse(path, message))?;
+            Ok(set_in_motion(centers, *speed, &still(*mass, *radius, *color), &mut draw))
+        }
+    }
+}
+
+/// A sphere at rest at the origin, without a force or a name of its own.
+fn still(mass: Positive, radius: Positive, color: Option<Rgb>) -> Sphere {
+    Sphere {
+        x: DVec3::ZERO,
+        v: DVec3::ZERO,
+        mass: mass.0,
+        radius: radius.0,
+        force: DVec3::ZERO,
+        color: color.map(|color| color.0),
+        name: None,
     }
 }
 
@@ -197,51 +206,8 @@ fn refuse_far(spheres: &[Sphere], path: &[Step], source: Source) -> Result<(), E
     if largest <= LARGEST {
         return Ok(());
     }
-    let message = format!("a coordinate or speed of {} is refused; allowed is up to 1e30", show_rounded(largest));
+    let message = format!("a coordinate or speed of {} is refused; allowed is up to 1e30", rounded(largest));
     Err(source.refuse(path, message))
-}
-
-fn single(file: &SphereFile) -> Vec<Sphere> {
-    let SphereFile::Sphere { x, v, mass, radius, force, color, name } = file else { return Vec::new() };
-    let name = name.as_ref().map(|name| name.0.clone());
-    let color = color.map(|color| color.0);
-    vec![Sphere { x: x.0, v: v.0, mass: mass.0, radius: radius.0, force: force.0, color, name }]
-}
-
-fn crystal(file: &SphereFile) -> Vec<Sphere> {
-    let SphereFile::Lattice { origin, counts, spacing, jitter, seed, mass, radius, v, speed, color } = file else {
-        return Vec::new();
-    };
-    let mut draw = SplitMix64::new(*seed);
-    let counts = [counts.0.0, counts.1.0, counts.2.0];
-    let centers = lattice(origin.0, counts, spacing.0, jitter.map_or(0.0, |jitter| jitter.0), &mut draw);
-    let like = Sphere {
-        x: DVec3::ZERO,
-        v: v.0,
-        mass: mass.0,
-        radius: radius.0,
-        force: DVec3::ZERO,
-        color: color.map(|color| color.0),
-        name: None,
-    };
-    set_in_motion(centers, *speed, &like, &mut draw)
-}
-
-fn gas(file: &SphereFile, bounds: Bounds, obstacles: &Obstacles) -> Result<Vec<Sphere>, String> {
-    let SphereFile::Gas { count, seed, speed, mass, radius, color, .. } = file else { return Ok(Vec::new()) };
-    let mut draw = SplitMix64::new(*seed);
-    let centers = strewn(bounds, count.0, radius.0, obstacles, &mut draw)?;
-    let color = color.map(|color| color.0);
-    let like = Sphere {
-        x: DVec3::ZERO,
-        v: DVec3::ZERO,
-        mass: mass.0,
-        radius: radius.0,
-        force: DVec3::ZERO,
-        color,
-        name: None,
-    };
-    Ok(set_in_motion(centers, *speed, &like, &mut draw))
 }
 
 /// Spheres like one another at these centres, with thermal velocities on top of their common one if a speed is given.
@@ -256,7 +222,7 @@ fn set_in_motion(centers: Vec<DVec3>, speed: Option<Amount>, like: &Sphere, draw
 
 /// What the screen shows if the scene does not say: the walls' box and the spheres with it, or twice the spheres' box
 /// if the walls reach far beyond.
-fn default_view(walls: &[Wall], spheres: &[Sphere]) -> Bounds {
+pub(super) fn default_view(walls: &[Wall], spheres: &[Sphere]) -> Bounds {
     let walls = Bounds::of(walls.iter().map(|wall| wall.shape.bounds()));
     let spheres = Bounds::of(spheres.iter().map(|sphere| Bounds::around(sphere.x, sphere.radius)));
     let twice = |bounds: Bounds| {

@@ -15,12 +15,13 @@ use super::file::{SceneFile, SphereFile, WallFile};
 use super::generate::SIDES;
 use super::locate::Step::{Field, Index};
 use super::number::{MOST_SPHERES, MOST_WALLS};
+use super::validated::Draft;
 
 /// Bytes that a sphere takes in the scene and in a run: 600 by `exact`, measured, and a quarter more.
 const SPHERE: u64 = 750;
-/// Bytes that a wall takes in the scene and in a run, likewise.
+/// Bytes that a wall takes in the scene and in a run, measured, and a quarter more.
 const WALL: u64 = 400;
-/// A scene that needs less than this many bytes is not worth the question.
+/// A scene that needs less than this many bytes is not checked.
 const SMALL: u64 = 16 << 20;
 
 /// Refuses more walls or spheres than a scene may have, and so many that this machine has no room for them.
@@ -30,6 +31,16 @@ const SMALL: u64 = 16 << 20;
 pub(super) fn refuse_too_large(file: &SceneFile, source: Source) -> Result<(), Error> {
     let walls = counted(("walls", &file.walls), walls_of, MOST_WALLS, source)?;
     let spheres = counted(("spheres", &file.spheres), spheres_of, MOST_SPHERES, source)?;
+    refuse_more_than_fits(spheres, walls).map_err(|message| source.refuse(&[Field("spheres")], message))
+}
+
+/// Refuses more walls or spheres in a draft than a scene may have, and so many that this machine has no room for a run.
+///
+/// # Errors
+/// The refusal, at the body that is one too many.
+pub(super) fn refuse_too_many(draft: &Draft, source: Source) -> Result<(), Error> {
+    let walls = counted(("walls", &draft.walls), |_| 1, MOST_WALLS, source)?;
+    let spheres = counted(("spheres", &draft.spheres), |_| 1, MOST_SPHERES, source)?;
     refuse_more_than_fits(spheres, walls).map_err(|message| source.refuse(&[Field("spheres")], message))
 }
 

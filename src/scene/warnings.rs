@@ -1,14 +1,13 @@
 //! What is allowed in a scene, but probably not meant.
 
-use super::error::show_rounded;
-use super::{Method, Scene, Settings, Sphere};
+use super::validated::{Method, Scene, Settings, Sphere};
+use crate::format::{amount, rounded};
 use crate::geometry::Bounds;
-use crate::printable::count;
 
 /// Spacings of the numbers around a coordinate that a radius should hold at least: fewer, and the gap is mostly rounding.
 const RESOLVED: f64 = 1e6;
 
-/// Frames that nobody waits for: at a nanosecond each, a quarter of an hour.
+/// More frames than a user waits for: at a nanosecond each, a quarter of an hour.
 const FRAMES: f64 = 1e12;
 
 /// Durations of a scene that a run without frames may last before it is warned of: at a microsecond each, a quarter of
@@ -28,7 +27,7 @@ fn restitution(scene: &Scene) -> Option<String> {
     let elastic =
         law.wall_restitution == 1.0 && !scene.walls.is_empty() || law.restitution == 1.0 && scene.spheres.len() > 1;
     (elastic && law.rest_speed > 0.0).then(|| {
-        let speed = show_rounded(law.rest_speed);
+        let speed = rounded(law.rest_speed);
         format!(
             "restitution is 1 but rest_speed is {speed} m/s: slow impacts rest and lose energy; set rest_speed to 0"
         )
@@ -52,20 +51,20 @@ fn outside_walls(scene: &Scene) -> Option<String> {
     counted(scene, outside).map(|who| format!("{who} outside the box of all walls"))
 }
 
-/// What must be said of a run to `until` (s) whose end nobody will see.
+/// What must be said of a run to `until` (s) that will not end in any time a user waits.
 pub fn endless(scene: &Scene, Settings { method, dt, .. }: Settings, until: f64) -> Option<String> {
-    let end = show_rounded(until);
+    let end = rounded(until);
     if method == Method::Exact {
         let times = until / scene.duration;
         let long = scene.duration > 0.0 && times > DURATIONS;
         return long.then(|| {
-            let times = count(times);
+            let times = amount(times);
             format!("{end} s are {times} times the scene's duration: if it never rests, nobody will see the end")
         });
     }
     let frames = until / dt;
     (frames > FRAMES).then(|| {
-        let (frames, dt) = (count(frames), show_rounded(dt));
+        let (frames, dt) = (amount(frames), rounded(dt));
         format!("{end} s take {frames} frames of {dt} s: nobody will see the end; raise dt or end sooner")
     })
 }
@@ -73,7 +72,7 @@ pub fn endless(scene: &Scene, Settings { method, dt, .. }: Settings, until: f64)
 fn tunnels(scene: &Scene, Settings { method, dt, .. }: Settings) -> Option<String> {
     let jumps = |sphere: &Sphere| method == Method::Paper && sphere.v.length() * dt > 2.0 * sphere.radius;
     counted(scene, jumps).map(|who| {
-        let dt = show_rounded(dt);
+        let dt = rounded(dt);
         format!("{who} so fast that it crosses more than its diameter in a step of {dt} s: `paper` may miss its contacts; lower dt")
     })
 }

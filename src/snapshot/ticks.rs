@@ -1,5 +1,7 @@
 //! When the impacts were.
 
+use super::bins::{self, bin};
+
 /// Bins of a [`Ticks`]: more than any terminal has columns, and a few kilobytes however long the run lasts.
 const BINS: usize = 1024;
 
@@ -15,8 +17,7 @@ pub struct Ticks {
 impl Ticks {
     /// No collisions yet, in bins that cover `span` seconds (1 s if that is not a positive number).
     pub fn new(span: f64) -> Ticks {
-        let span = if span.is_finite() && span > 0.0 { span } else { 1.0 };
-        Ticks { span, impacts: vec![0; BINS] }
+        Ticks { span: bins::span(span), impacts: vec![0; BINS] }
     }
 
     /// Counts an impact at `time`, s; the bins double until they reach it. A time that is no number is left out.
@@ -24,23 +25,8 @@ impl Ticks {
         if !time.is_finite() {
             return;
         }
-        while time >= self.span && self.span < f64::MAX / 2.0 {
-            self.double();
-        }
-        let bin = time.max(0.0) / self.span * self.impacts.len() as f64;
-        let last = self.impacts.len() - 1;
-        let count = &mut self.impacts[(bin as usize).min(last)];
-        *count = count.saturating_add(1);
-    }
-
-    /// Twice the span in the same number of bins.
-    fn double(&mut self) {
-        let half = self.impacts.len() / 2;
-        for i in 0..half {
-            self.impacts[i] = self.impacts[2 * i].saturating_add(self.impacts[2 * i + 1]);
-        }
-        self.impacts[half..].fill(0);
-        self.span *= 2.0;
+        let bin = bin(&mut self.impacts, &mut self.span, time, 0, u32::saturating_add);
+        self.impacts[bin] = self.impacts[bin].saturating_add(1);
     }
 }
 

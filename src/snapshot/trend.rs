@@ -1,5 +1,7 @@
 //! How a quantity went over time.
 
+use super::bins::{self, bin};
+
 /// Bins of a [`Trend`]: more than any terminal has columns.
 const BINS: usize = 512;
 
@@ -17,8 +19,7 @@ pub struct Trend {
 impl Trend {
     /// Nothing known yet, in bins that cover `span` seconds (1 s if that is not a positive number).
     pub fn new(span: f64) -> Trend {
-        let span = if span.is_finite() && span > 0.0 { span } else { 1.0 };
-        Trend { span, values: vec![f64::NAN; BINS], last: None }
+        Trend { span: bins::span(span), values: vec![f64::NAN; BINS], last: None }
     }
 
     /// Adds a value at `time`, s; the bins double until they reach it. What is not finite is left out.
@@ -27,16 +28,8 @@ impl Trend {
             return;
         }
         self.last = Some(value);
-        while time >= self.span && self.span < f64::MAX / 2.0 {
-            let merged = self.values.chunks(2).map(|pair| pair[0].max(pair[1]));
-            let mut values: Vec<f64> = merged.collect();
-            values.resize(BINS, f64::NAN);
-            self.values = values;
-            self.span *= 2.0;
-        }
-        let bin = (time.max(0.0) / self.span * BINS as f64) as usize;
-        let most = &mut self.values[bin.min(BINS - 1)];
-        *most = most.max(value.abs());
+        let bin = bin(&mut self.values, &mut self.span, time, f64::NAN, f64::max);
+        self.values[bin] = self.values[bin].max(value.abs());
     }
 }
 

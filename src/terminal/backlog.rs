@@ -5,13 +5,13 @@ use std::sync::{
     atomic::{AtomicBool, AtomicUsize, Ordering},
 };
 
-use super::{Event, Post};
+use super::event::{Event, Post};
 use crate::app::{Input, Key};
 
-/// More keys and pastes do not wait: nobody types as far ahead.
+/// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
 
-/// What both ends know.
+/// What both ends share.
 #[derive(Default)]
 struct Shared {
     waiting: AtomicUsize,

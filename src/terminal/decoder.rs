@@ -1,13 +1,16 @@
 //! Bytes to inputs.
 //!
-//! The bytes fall into characters, control sequences, strings (whose payload is nobody's key) and pastes, as a terminal
+//! The bytes fall into characters, control sequences, strings (whose payload holds no key) and pastes, as a terminal
 //! itself would take them apart. What was begun may be torn: after the escape time-out a lone escape counts as the key,
 //! and everything else as given up, but for a while longer what can only be the rest of it still belongs to it. Ctrl-C
 //! is the key wherever it comes, but in the midst of a paste that ends.
 
 use std::time::Duration;
 
-use super::{paste::Paste, sequence};
+use super::{
+    paste::{CTRL_C, Paste},
+    sequence,
+};
 use crate::app::{Code, Input, Key};
 
 /// A paste that does not go on for this long is over.
@@ -23,7 +26,6 @@ const REST: Duration = Duration::from_secs(1);
 const PARAMETERS: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
-pub(super) const CTRL_C: u8 = 0x03;
 const CANCEL: u8 = 0x18;
 const SUBSTITUTE: u8 = 0x1a;
 const BELL: u8 = 0x07;

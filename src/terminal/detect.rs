@@ -15,7 +15,7 @@ pub(super) struct Environment {
 }
 
 impl Environment {
-    /// What `variable` says.
+    /// The environment whose variables have the values that `variable` returns.
     pub(super) fn read(variable: impl Fn(&str) -> Option<String>) -> Environment {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
         let count = |name: &str| set(name).and_then(|value| value.trim().parse().ok()).filter(|&count| count > 0);

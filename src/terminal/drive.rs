@@ -15,10 +15,11 @@ use rustix::termios::isatty;
 use signal_hook::consts::SIGHUP;
 
 use super::{
-    Error, Event, Options, Outcome, Post,
     backlog::{Backlog, backlog},
     detect::Environment,
+    event::{Event, Post},
     input,
+    outcome::{Error, Options, Outcome},
     pacer::{Next, Pacer},
     session::{Guard, Session},
     signals,
@@ -136,7 +137,7 @@ impl Driver {
             Event::Resized => self.pacer.resized(self.clock.elapsed()),
             Event::Suspend => self.suspend()?,
             Event::Continued => {
-                // Whoever stopped us may have left the terminal in any state.
+                // While we were stopped, any program may have changed the terminal.
                 if self.guard.session().take().is_err() {
                     return Ok(Some(Outcome::Signal(SIGHUP)));
                 }
@@ -162,7 +163,7 @@ impl Driver {
         Ok(None)
     }
 
-    /// Gives the terminal to the shell and stops; if nobody could continue us, says so instead.
+    /// Gives the terminal to the shell and stops; says so instead if no shell could continue us.
     fn suspend(&mut self) -> Result<(), Error> {
         if !signals::somebody_could_continue_us() {
             self.app.say("There is no shell that could continue carom, so it goes on.");

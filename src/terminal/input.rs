@@ -9,7 +9,7 @@ use rustix::{
     termios::isatty,
 };
 
-use super::{Event, backlog::Entrance, decoder::Decoder};
+use super::{backlog::Entrance, decoder::Decoder, event::Event};
 
 /// Starts the thread; it posts inputs, and [`Event::Gone`] when the terminal is.
 ///

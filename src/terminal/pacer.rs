@@ -45,7 +45,7 @@ impl Pacer {
         self.dirty = Some(self.dirty.map_or(turn, |due| due.min(turn)));
     }
 
-    /// Something changed that somebody is waiting for.
+    /// Something changed that the user waits for.
     pub(super) fn urgent(&mut self, now: Duration) {
         self.dirty = Some(now);
     }

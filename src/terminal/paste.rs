@@ -1,6 +1,7 @@
 //! Pasted text, in the brackets that tell it from typed keys.
 
-use super::decoder::CTRL_C;
+/// Ctrl-C as a byte: the key wherever it comes, but in a paste that ends.
+pub(super) const CTRL_C: u8 = 0x03;
 
 /// As much of a paste is kept, bytes; nothing here takes more. After as much a Ctrl-C in a paste is the key.
 pub(super) const KEPT: usize = 4096;

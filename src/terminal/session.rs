@@ -31,18 +31,18 @@ use rustix::{
 };
 use signal_hook::consts::SIGCONT;
 
-use super::{Event, Post};
+use super::event::{Event, Post};
 
-/// A terminal that takes nothing for this long while we leave is left as it is: nobody may have to wait for it.
+/// A terminal that takes nothing for this long while we leave is left as it is: the shell must not wait for it.
 const FAREWELL: Duration = Duration::from_millis(150);
 
 /// Alternate screen, pasted text in brackets, no cursor.
 const HELLO: &[u8] = b"\x1b[?1049h\x1b[?2004h\x1b[?25l";
 
-/// The same undone, last to first, and before that the end of a synchronized update, should we leave in one.
+/// Undoes what was asked of the terminal, last to first; before that it ends a synchronized update, should we leave in one.
 const GOODBYE: &[u8] = b"\x1b[?2026l\x1b[m\x1b[?25h\x1b[?2004l\x1b[?1049l";
 
-/// The screen, shared by all who may have to give it back: drawing, signals, a panic anywhere.
+/// The screen, shared by every part that may have to give it back: drawing, signals, a panic anywhere.
 pub(super) struct Session {
     screen: Mutex<Screen>,
     /// Whether the terminal is ours. Once it is not, nothing is written any more.
@@ -133,7 +133,7 @@ impl Session {
         if let Some(screen) = self.lock_until(deadline)
             && screen.send(GOODBYE, || Instant::now() < deadline) != Ok(true)
         {
-            // It is full of pictures that nobody reads; they are worth less than a usable shell.
+            // It is full of pictures that are not read any more; they are worth less than a usable shell.
             let _ = tcflush(&screen.file, QueueSelector::OFlush);
             let _ = screen.send(GOODBYE, || false);
         }
@@ -160,7 +160,7 @@ impl Session {
         rustix::termios::tcgetwinsize(stdout).map_or((0, 0), |size| (size.ws_col, size.ws_row))
     }
 
-    /// The way to the terminal, unless whoever holds it keeps it too long (the panicking thread itself, perhaps).
+    /// The way to the terminal, unless another thread holds it too long (the panicking thread itself, perhaps).
     fn lock_until(&self, deadline: Instant) -> Option<MutexGuard<'_, Screen>> {
         loop {
             match self.screen.try_lock() {
@@ -174,7 +174,7 @@ impl Session {
 }
 
 impl Screen {
-    /// Opens the terminal of `stdout` anew, so that writing without waiting concerns nobody else who has it open.
+    /// Opens the terminal of `stdout` anew, so that writing without waiting concerns no other program that has it open.
     fn open(stdout: BorrowedFd) -> io::Result<Screen> {
         let name = rustix::termios::ttyname(stdout, Vec::new());
         let anew = name.ok().and_then(|name| {

@@ -1,4 +1,4 @@
-//! Signals as events, and stopping in a way that somebody can undo.
+//! Signals as events, and stopping in a way that the shell can undo.
 
 use std::{io, sync::Arc, thread, time::Duration};
 
@@ -8,7 +8,10 @@ use signal_hook::{
     iterator::Signals,
 };
 
-use super::{Event, Post, session::Session};
+use super::{
+    event::{Event, Post},
+    session::Session,
+};
 
 /// Time to leave in good order after a signal to end; then the process ends as it is.
 const GRACE: Duration = Duration::from_millis(500);
@@ -29,7 +32,7 @@ pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
                 SIGCONT => post.send(Event::Continued),
                 end => {
                     post.send(Event::End(end));
-                    // Whoever draws may be stuck. This thread dies with the process if not.
+                    // The thread that draws may be stuck. If not, this one dies with the process.
                     thread::sleep(GRACE);
                     session.give_back();
                     std::process::exit(128 + end);

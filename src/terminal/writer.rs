@@ -1,4 +1,4 @@
-//! Sends pictures on a thread of its own, so that a terminal that takes nothing stops nobody.
+//! Sends pictures on a thread of its own, so that a terminal that takes nothing stops no other thread.
 
 use std::{
     sync::{
@@ -8,7 +8,10 @@ use std::{
     thread,
 };
 
-use super::{Event, Post, session::Session};
+use super::{
+    event::{Event, Post},
+    session::Session,
+};
 
 /// The sending end: one picture on its way at a time.
 pub(super) struct Writer {

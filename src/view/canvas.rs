@@ -1,4 +1,4 @@
-//! A grid of dots, 2×4 a cell, that remembers for each cell whose colour it takes.
+//! A grid of dots, 2×4 a cell, that remembers for each cell which layer gives its colour.
 //!
 //! A cell has one colour: the highest layer drawn into it decides, and within a layer the last, so the same snapshot
 //! always gives the same cells.
@@ -14,7 +14,7 @@ use super::{
     sheet::Sheet,
 };
 
-/// Who wins a cell's colour, from the lowest.
+/// Which layer gives a cell its colour: the highest that is in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(super) enum Layer {
     /// Nothing drawn.
@@ -37,7 +37,7 @@ pub(super) enum Layer {
 /// Colour, attributes and layer of what is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Ink {
-    /// Who wins.
+    /// Which layer it is on.
     pub(super) layer: Layer,
     color: Color,
     modifier: Modifier,

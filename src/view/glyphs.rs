@@ -1,6 +1,6 @@
 //! Characters by marker: how a cell's dots look, and the signs of the frame, which ASCII has its own for.
 
-use super::Marker;
+use super::screen::Marker;
 
 /// The signs a frame is made of, beside dots and words.
 #[derive(Debug, PartialEq)]

@@ -1,14 +1,16 @@
 //! The inspector: the selected sphere, the run's balance, the frame's contacts, its search for the collision time.
 
 use glam::DVec3;
-use ratatui::{layout::Rect, style::Style};
+use ratatui::layout::Rect;
 
 use super::{
-    Screen,
-    layout::{split_left, split_top},
-    numbers, probes,
+    column::Column,
+    layout::split_left,
+    probes,
+    screen::Screen,
     sheet::{self, Sheet},
 };
+use crate::format;
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
 
 /// Rows of the run's balance, and those that the contacts should have at least.
@@ -23,7 +25,7 @@ const SEARCH: usize = 6;
 pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (_, area) = split_left(area, 1);
     let area = Rect { width: area.width.saturating_sub(1), ..area };
-    let mut column = Column { rest: area, sheet };
+    let mut column = Column::new(area, sheet);
     draw_sphere(screen, &mut column);
     // Only sizes decide what is shown, never how many contacts there are: nothing jumps while it runs.
     if column.rows() >= RUN + CONTACTS {
@@ -33,70 +35,11 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     probes::draw(&screen.snapshot.probes, &mut column);
 }
 
-/// A column written from the top down; what does not fit is left out.
-pub(super) struct Column<'a, 'b> {
-    rest: Rect,
-    sheet: &'a mut Sheet<'b>,
-}
-
-impl Column<'_, '_> {
-    /// Columns across.
-    pub(super) fn width(&self) -> usize {
-        self.rest.width.into()
-    }
-
-    /// Rows left.
-    pub(super) fn rows(&self) -> usize {
-        self.rest.height.into()
-    }
-
-    /// The sheet's styles and signs.
-    pub(super) fn sheet(&self) -> &Sheet<'_> {
-        self.sheet
-    }
-
-    /// A row in one style.
-    pub(super) fn row(&mut self, text: &str, style: Style) {
-        self.pieces(&[(text, style)]);
-    }
-
-    /// A row of pieces.
-    pub(super) fn pieces(&mut self, pieces: &[(&str, Style)]) {
-        let (row, rest) = split_top(self.rest, 1);
-        self.sheet.put_all(row, pieces);
-        self.rest = rest;
-    }
-
-    /// An empty row.
-    pub(super) fn skip(&mut self) {
-        self.rest = split_top(self.rest, 1).1;
-    }
-
-    /// A heading with a faint remark.
-    pub(super) fn heading(&mut self, text: &str, remark: &str) {
-        let palette = self.sheet.palette;
-        self.pieces(&[(text, palette.heading()), ("  ", palette.plain()), (remark, palette.faint())]);
-    }
-
-    /// A name, a value right-aligned below the one above, and a unit.
-    pub(super) fn entry(&mut self, name: &str, value: &str, unit: &str) {
-        let palette = self.sheet.palette;
-        let head = format!("{name:<9}");
-        let value = format!("{value:>10}");
-        self.pieces(&[
-            (&head, palette.faint()),
-            (&value, palette.plain()),
-            (" ", palette.plain()),
-            (unit, palette.faint()),
-        ]);
-    }
-}
-
 /// The selected sphere: position, velocity, speed, kinetic energy, mass, radius.
 fn draw_sphere(screen: &Screen, column: &mut Column) {
     let snapshot = screen.snapshot;
     let stage = &snapshot.stage;
-    let chosen = screen.look.selected.and_then(|i| Some((i, snapshot.x.get(i)?, snapshot.v.get(i)?)));
+    let chosen = screen.view_settings.selected.and_then(|i| Some((i, snapshot.x.get(i)?, snapshot.v.get(i)?)));
     let Some((i, x, v)) = chosen else {
         column.heading("sphere", "none selected");
         return column.skip();
@@ -105,10 +48,10 @@ fn draw_sphere(screen: &Screen, column: &mut Column) {
     column.heading(&format!("sphere #{i}"), name);
     draw_vectors(*x, *v, column);
     let mass = stage.masses.get(i).copied().unwrap_or(f64::NAN);
-    column.entry("speed", &numbers::decimal(v.length(), 10, 4), "m/s");
-    column.entry("kinetic", &numbers::decimal(0.5 * mass * v.length_squared(), 10, 4), "J");
-    column.entry("mass", &numbers::short(mass), "kg");
-    column.entry("radius", &numbers::short(stage.radii.get(i).copied().unwrap_or(f64::NAN)), "m");
+    column.entry("speed", &format::decimal(v.length(), 10, 4), "m/s");
+    column.entry("kinetic", &format::decimal(0.5 * mass * v.length_squared(), 10, 4), "J");
+    column.entry("mass", &format::setting(mass), "kg");
+    column.entry("radius", &format::setting(stage.radii.get(i).copied().unwrap_or(f64::NAN)), "m");
     column.skip();
 }
 
@@ -119,7 +62,7 @@ fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
     let decimals = (width - 6).min(6);
     column.row(&format!(" {:>width$}{:>width$}", "position m", "velocity m/s"), faint);
     for (axis, x, v) in [("x", x.x, v.x), ("y", x.y, v.y), ("z", x.z, v.z)] {
-        let values = numbers::decimal(x, width, decimals) + &numbers::decimal(v, width, decimals);
+        let values = format::decimal(x, width, decimals) + &format::decimal(v, width, decimals);
         column.pieces(&[(axis, faint), (&values, plain)]);
     }
 }
@@ -129,19 +72,19 @@ fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     let tallies = snapshot.tallies;
     let unsolved = match tallies.unconverged {
         0 => String::new(),
-        frames => format!(", {} unsolved", numbers::count(frames)),
+        frames => format!(", {} unsolved", format::thousands(frames)),
     };
-    column.heading("run", &format!("frame of {} s{unsolved}", numbers::short(snapshot.step)));
-    column.entry("energy", &numbers::decimal(snapshot.energy, 10, 4), "J");
+    column.heading("run", &format!("frame of {} s{unsolved}", format::setting(snapshot.step)));
+    column.entry("energy", &format::decimal(snapshot.energy, 10, 4), "J");
     let change = (snapshot.energy - snapshot.initial_energy) / snapshot.initial_energy.abs() * 100.0;
     if change.is_finite() {
-        column.entry("  since 0", &numbers::decimal(change, 10, 4), "%");
+        column.entry("  since 0", &format::decimal(change, 10, 4), "%");
     }
-    column.entry("deepest", &numbers::scientific(tallies.deepest_degree, 10), "degree");
-    column.entry("frames", &numbers::count(tallies.frames), "");
-    column.entry("impacts", &numbers::count(tallies.impacts), "");
-    column.entry("rests", &numbers::count(tallies.rests), "");
-    column.entry("gaps", &numbers::count(tallies.evaluations), "computed");
+    column.entry("deepest", &format::scientific(tallies.deepest_degree, 10), "degree");
+    column.entry("frames", &format::thousands(tallies.frames), "");
+    column.entry("impacts", &format::thousands(tallies.impacts), "");
+    column.entry("rests", &format::thousands(tallies.rests), "");
+    column.entry("gaps", &format::thousands(tallies.evaluations), "computed");
     column.skip();
 }
 
@@ -192,10 +135,10 @@ fn draw_contact(contact: &Contact, column: &mut Column) {
     };
     let (faint, plain) = (palette.faint(), palette.plain());
     let pad = " ".repeat(column.width().saturating_sub(CLASS + DEGREE + sheet::width(&bodies)));
-    let (class, degree) = (format!("{class:<CLASS$}"), numbers::scientific(contact.degree, DEGREE));
+    let (class, degree) = (format!("{class:<CLASS$}"), format::scientific(contact.degree, DEGREE));
     column.pieces(&[(&bodies, plain), (&pad, plain), (&class, style), (&degree, faint)]);
-    let before = numbers::decimal(contact.approach_speed, 7, 3);
-    let after = numbers::decimal(contact.separation_speed, 6, 3);
-    let impulse = numbers::decimal(contact.impulse, 14, 4);
+    let before = format::decimal(contact.approach_speed, 7, 3);
+    let after = format::decimal(contact.separation_speed, 6, 3);
+    let impulse = format::decimal(contact.impulse, 14, 4);
     column.row(&format!("{before}{}{after}{impulse}", glyphs.arrow), plain);
 }

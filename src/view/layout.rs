@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Look, Views};
+use super::screen::{ViewSettings, Views};
 
 /// Columns from which on a third column holds the inspector.
 const WIDE: u16 = 110;
@@ -62,7 +62,7 @@ pub(super) enum Side {
 
 impl Plan {
     /// The plan for an area.
-    pub(super) fn new(area: Rect, look: &Look) -> Plan {
+    pub(super) fn new(area: Rect, settings: &ViewSettings) -> Plan {
         if area.width < 12 || area.height < 3 {
             return Plan::TooSmall;
         }
@@ -72,10 +72,10 @@ impl Plan {
         let (rest, last) = split_bottom(area, 1);
         let (status, rest) = split_top(rest, 1);
         let (body, timeline) = split_bottom(rest, u16::from(area.height >= 11));
-        let (views, inspector) = split_inspector(body, area, look);
-        let (views, trade) = split_bottom(views, if look.ghost { trade_rows(views.height) } else { 0 });
+        let (views, inspector) = split_inspector(body, area, settings);
+        let (views, trade) = split_bottom(views, if settings.ghost { trade_rows(views.height) } else { 0 });
         let trade = (!trade.is_empty()).then_some(trade);
-        let panes = panes(views, area, look, inspector.is_some());
+        let panes = panes(views, area, settings, inspector.is_some());
         let timeline = (timeline.height > 0).then_some(timeline);
         Plan::Full(Full { status, body, panes, inspector, trade, timeline, last })
     }
@@ -91,13 +91,13 @@ fn trade_rows(views: u16) -> u16 {
 }
 
 /// The views' part of the body and the inspector's: a third column if wide, else in the side view's place, if at all.
-fn split_inspector(body: Rect, area: Rect, look: &Look) -> (Rect, Option<Rect>) {
+fn split_inspector(body: Rect, area: Rect, settings: &ViewSettings) -> (Rect, Option<Rect>) {
     if area.width >= WIDE {
         let width = (area.width / 4).clamp(30, 42);
         let (views, inspector) = split_right(body, width);
         return (views, Some(inspector));
     }
-    if !look.inspector {
+    if !settings.inspector {
         return (body, None);
     }
     if area.width < 60 || area.height < 16 {
@@ -108,10 +108,10 @@ fn split_inspector(body: Rect, area: Rect, look: &Look) -> (Rect, Option<Rect>) 
 }
 
 /// The panes: two of equal width side by side where both are wanted and fit.
-fn panes(views: Rect, area: Rect, look: &Look, inspected: bool) -> Vec<Pane> {
+fn panes(views: Rect, area: Rect, settings: &ViewSettings, inspected: bool) -> Vec<Pane> {
     let narrow = area.width < 60 || area.height < 16;
     let replaced = inspected && area.width < WIDE;
-    match look.views {
+    match settings.views {
         _ if views.is_empty() => Vec::new(),
         Views::Side => vec![pane(Side::Side, views)],
         Views::Top => vec![pane(Side::Top, views)],

@@ -4,10 +4,11 @@ use glam::DVec3;
 
 use super::{
     canvas::{Ink, Layer},
-    numbers, shapes,
+    pane::View,
+    shapes,
     sheet::Sheet,
-    stage::View,
 };
+use crate::format;
 use crate::snapshot::Class;
 
 /// Length of a contact normal seen from the side, dots: three cells high, whatever the zoom.
@@ -18,7 +19,7 @@ const BARB: f64 = 3.0;
 
 /// Draws normals and velocities, under the spheres.
 pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
-    let overlays = view.screen.look.overlays;
+    let overlays = view.screen.view_settings.overlays;
     if overlays.velocities {
         draw_velocities(view, sheet);
     }
@@ -29,12 +30,12 @@ pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
 
 /// Draws contact marks and numbers, over the spheres.
 pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
-    let look = view.screen.look;
-    if look.overlays.contacts {
+    let settings = view.screen.view_settings;
+    if settings.overlays.contacts {
         draw_contacts(view, sheet);
     }
-    let spheres = if look.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
-    for sphere in spheres.filter(|sphere| look.selected != Some(*sphere)).chain(look.selected) {
+    let spheres = if settings.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
+    for sphere in spheres.filter(|sphere| settings.selected != Some(*sphere)).chain(settings.selected) {
         draw_number(view, sphere, sheet);
     }
 }
@@ -46,7 +47,7 @@ pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
     let squares = view.screen.snapshot.v.iter().map(|v| v.length_squared()).filter(|square| square.is_finite());
     let fastest = squares.fold(0.0, f64::max).sqrt();
     let seconds = view.camera.span(view.area).x * 0.2 / fastest;
-    (seconds.is_finite() && seconds > 0.0).then(|| numbers::round_down(seconds))
+    (seconds.is_finite() && seconds > 0.0).then(|| format::round_down(seconds))
 }
 
 fn draw_velocities(view: &mut View, sheet: &Sheet) {
@@ -103,7 +104,7 @@ fn draw_contacts(view: &mut View, sheet: &Sheet) {
 fn draw_number(view: &mut View, sphere: usize, sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { return };
-    let selected = view.screen.look.selected == Some(sphere);
+    let selected = view.screen.view_settings.selected == Some(sphere);
     let (text, layer) =
         if selected { (format!("#{sphere}"), Layer::Selected) } else { (format!("{sphere}"), Layer::Contact) };
     let Some((x, y)) = on_canvas(view, *x) else { return };

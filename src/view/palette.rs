@@ -3,7 +3,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::Colors;
+use super::screen::Colors;
 
 /// Colours by role, for one depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! The search for the collision time, trial step by trial step.
 
-use super::{inspector::Column, numbers};
+use super::column::Column;
+use crate::format;
 use crate::snapshot::Probe;
 
 /// Draws the trial steps, the last ones if there is no room for all: they are the closest to the collision.
@@ -18,9 +19,9 @@ pub(super) fn draw(probes: &[Probe], column: &mut Column) {
         let degree = if probe.degree == f64::NEG_INFINITY {
             format!("{:>10}", "apart")
         } else {
-            numbers::scientific(probe.degree, 10)
+            format::scientific(probe.degree, 10)
         };
-        let row = format!("{}  {degree} {touching}", numbers::decimal(probe.step, 12, 9));
+        let row = format!("{}  {degree} {touching}", format::decimal(probe.step, 12, 9));
         column.row(&row, palette.plain());
     }
 }

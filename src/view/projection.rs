@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ratatui::layout::Rect;
 
-use super::{Look, layout::Side};
+use super::{layout::Side, screen::ViewSettings};
 use crate::snapshot::Stage;
 
 /// Dots kept free around the scene's view box at zoom 1, so that its walls are seen and the views do not touch.
@@ -25,12 +25,12 @@ pub(super) struct Camera {
 
 impl Camera {
     /// The camera for views of the size of `canvas` (cells). `followed`: where the followed sphere is, m.
-    pub(super) fn new(look: &Look, stage: &Stage, followed: Option<DVec3>, canvas: Rect) -> Camera {
+    pub(super) fn new(settings: &ViewSettings, stage: &Stage, followed: Option<DVec3>, canvas: Rect) -> Camera {
         let (min, max) = (stage.view.min, stage.view.max);
-        let home = min + (max - min) * 0.5 + look.pan;
+        let home = min + (max - min) * 0.5 + settings.pan;
         let center = followed.filter(|x| x.is_finite()).unwrap_or(home);
         let center = if center.is_finite() { center } else { DVec3::ZERO };
-        Camera { center, scale: fit(max - min, canvas) * sane_zoom(look.zoom) }
+        Camera { center, scale: fit(max - min, canvas) * sane_zoom(settings.zoom) }
     }
 
     /// Where a world point falls in a view of the size of `canvas`, in dots: dot (i, j) has its centre at (i, j).

@@ -3,8 +3,8 @@
 use ratatui::layout::{Position, Rect};
 
 use super::{
-    Popup, Screen,
     layout::{split_bottom, split_left, split_top},
+    screen::{Popup, Screen},
     sheet::{self, Sheet},
 };
 

@@ -58,7 +58,7 @@ pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
     rim(canvas, c, r, |_, _| true, ink);
 }
 
-/// The same with every other dot left out.
+/// A circle of radius `r` dots about `c` with every other dot left out.
 pub(super) fn dotted_circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
     rim(canvas, c, r, |x, y| (x ^ y) & 1 == 0, ink);
 }

@@ -10,9 +10,9 @@ use ratatui::{
 };
 
 use super::{
-    Look, Marker,
     glyphs::{Glyphs, glyphs},
     palette::Palette,
+    screen::{Marker, ViewSettings},
 };
 
 /// The buffer with what every strip of the screen needs to write on it.
@@ -29,8 +29,13 @@ pub(super) struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     /// A sheet over the buffer.
-    pub(super) fn new(buffer: &'a mut Buffer, look: &Look) -> Sheet<'a> {
-        Sheet { buffer, palette: Palette::new(look.colors), marker: look.marker, glyphs: glyphs(look.marker) }
+    pub(super) fn new(buffer: &'a mut Buffer, settings: &ViewSettings) -> Sheet<'a> {
+        Sheet {
+            buffer,
+            palette: Palette::new(settings.colors),
+            marker: settings.marker,
+            glyphs: glyphs(settings.marker),
+        }
     }
 
     /// Blanks an area.

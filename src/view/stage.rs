@@ -1,17 +1,18 @@
 //! One view: its label and scale, the walls' outlines, the spheres, and what lies on them.
 
-use glam::DVec3;
 use ratatui::layout::Rect;
 
 use super::{
-    Screen,
     canvas::{Canvas, Ink, Layer},
     layout::{Pane, Side},
-    numbers, overlays,
+    overlays,
+    pane::View,
     projection::{Camera, sane_zoom},
+    screen::Screen,
     shapes,
     sheet::{self, Sheet},
 };
+use crate::format;
 use crate::snapshot::{Class, Kind, Snapshot};
 
 /// Below this radius, dots, a sphere is drawn filled: an outline would have no inside.
@@ -26,32 +27,11 @@ const HATCH: i32 = 4;
 /// Distance of the selected sphere's second ring from its first, dots.
 const HALO: f64 = 2.0;
 
-/// A view and what is needed to draw on it.
-pub(super) struct View<'a> {
-    /// Which projection.
-    pub(super) side: Side,
-    /// Where it is on the screen, cells.
-    pub(super) area: Rect,
-    /// Metres to dots.
-    pub(super) camera: Camera,
-    /// The dots.
-    pub(super) canvas: Canvas,
-    /// What is shown.
-    pub(super) screen: &'a Screen<'a>,
-}
-
-impl View<'_> {
-    /// Where a world point falls, dots.
-    pub(super) fn project(&self, point: DVec3) -> shapes::Dots {
-        self.camera.project(self.side, point, self.area)
-    }
-}
-
 /// Draws one view with its label.
 pub(super) fn draw(screen: &Screen, pane: &Pane, sheet: &mut Sheet) {
-    let (snapshot, look) = (screen.snapshot, screen.look);
-    let followed = look.selected.filter(|_| look.follow).and_then(|i| snapshot.x.get(i).copied());
-    let camera = Camera::new(look, &snapshot.stage, followed, pane.canvas);
+    let (snapshot, settings) = (screen.snapshot, screen.view_settings);
+    let followed = settings.selected.filter(|_| settings.follow).and_then(|i| snapshot.x.get(i).copied());
+    let camera = Camera::new(settings, &snapshot.stage, followed, pane.canvas);
     let canvas = Canvas::new(pane.canvas);
     let mut view = View { side: pane.side, area: pane.canvas, camera, canvas, screen };
     draw_walls(&mut view, sheet);
@@ -78,7 +58,7 @@ fn draw_walls(view: &mut View, sheet: &Sheet) {
 
 /// Where the exact run's spheres are: dotted circles under all others, so that only what has strayed shows one.
 fn draw_ghost(view: &mut View, sheet: &Sheet) {
-    let Some(ghost) = view.screen.beside.and_then(|beside| beside.ghost) else { return };
+    let Some(ghost) = view.screen.comparison.and_then(|comparison| comparison.ghost) else { return };
     let ink = Ink::new(Layer::Ghost, sheet.palette.ghost());
     for (x, radius) in ghost.x.iter().zip(&view.screen.snapshot.stage.radii) {
         let (center, r) = (view.project(*x), radius * view.camera.scale);
@@ -121,7 +101,7 @@ fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let stage = &snapshot.stage;
     for (i, ((x, radius), state)) in snapshot.x.iter().zip(&stage.radii).zip(states).enumerate() {
-        let selected = view.screen.look.selected == Some(i);
+        let selected = view.screen.view_settings.selected == Some(i);
         let layer = match state {
             _ if selected => Layer::Selected,
             State::Free => Layer::Sphere,
@@ -171,13 +151,13 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     };
     let (faint, heading) = (sheet.palette.faint(), sheet.palette.heading());
     let used = sheet.put_all(label, &[(" ", faint), (name, heading), (" ", faint), (axes, faint)]);
-    let zoom = sane_zoom(view.screen.look.zoom);
+    let zoom = sane_zoom(view.screen.view_settings.zoom);
     let mut extra = String::new();
     if zoom != 1.0 {
-        extra += &format!("  {}{}", sheet.glyphs.times, numbers::short(zoom));
+        extra += &format!("  {}{}", sheet.glyphs.times, format::setting(zoom));
     }
-    if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.look.overlays.velocities) {
-        extra += &format!("  {} {} s", sheet.glyphs.arrow, numbers::short(seconds));
+    if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.view_settings.overlays.velocities) {
+        extra += &format!("  {} {} s", sheet.glyphs.arrow, format::setting(seconds));
     }
     let scale = scale_bar(view, sheet) + " ";
     let room = usize::from(label.width - used);
@@ -192,9 +172,9 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
 
 /// "2 m ━━━━━━━╸": the largest round length that is at most a quarter of the width, exact to a dot.
 fn scale_bar(view: &View, sheet: &Sheet) -> String {
-    let meters = numbers::round_down(view.camera.span(view.area).x * 0.25);
+    let meters = format::round_down(view.camera.span(view.area).x * 0.25);
     let dots = (meters * view.camera.scale).round().clamp(0.0, f64::from(view.canvas.width())) as usize;
     let [cell, half] = sheet.glyphs.bar;
     let half = if dots % 2 == 1 { half } else { "" };
-    format!("{} m {}{half}", numbers::short(meters), cell.repeat(dots / 2))
+    format!("{} m {}{half}", format::setting(meters), cell.repeat(dots / 2))
 }

@@ -3,11 +3,11 @@
 use ratatui::{layout::Rect, style::Style};
 
 use super::{
-    Mode, Screen,
     layout::{split_left, split_right, split_top},
-    numbers,
+    screen::{Mode, Screen},
     sheet::{self, Sheet},
 };
+use crate::format;
 
 /// Columns between two fields.
 const GAP: usize = 2;
@@ -81,16 +81,16 @@ fn fields(screen: &Screen, sheet: &Sheet) -> Vec<Field> {
     let snapshot = screen.snapshot;
     let duration = snapshot.stage.duration.max(snapshot.t);
     let times = sheet.glyphs.times;
-    let reached = screen.pace.reached.map(|reached| format!("({}{times})", numbers::decimal(reached, 4, 2)));
-    let wanted = format!("{}{times}", numbers::short(screen.pace.wanted));
+    let reached = screen.pace.reached.map(|reached| format!("({}{times})", format::decimal(reached, 4, 2)));
+    let wanted = format!("{}{times}", format::setting(screen.pace.wanted));
     vec![
-        Field::new("t ", numbers::clock(snapshot.t, duration, snapshot.dt), " s"),
+        Field::new("t ", format::clock(snapshot.t, duration, snapshot.dt), " s"),
         Field::new("speed ", format!("{wanted} {:<7}", reached.unwrap_or_default()), ""),
         Field::new("", snapshot.method.into(), ""),
-        Field::new("dt ", numbers::short(snapshot.dt), " s"),
-        Field::new("tol ", numbers::short(snapshot.tolerance), ""),
-        Field::new("E ", numbers::decimal(snapshot.energy, 9, 4), " J"),
-        Field::new("impacts ", format!("{:>6}", numbers::count(snapshot.tallies.impacts)), ""),
+        Field::new("dt ", format::setting(snapshot.dt), " s"),
+        Field::new("tol ", format::setting(snapshot.tolerance), ""),
+        Field::new("E ", format::decimal(snapshot.energy, 9, 4), " J"),
+        Field::new("impacts ", format!("{:>6}", format::thousands(snapshot.tallies.impacts)), ""),
     ]
 }
 

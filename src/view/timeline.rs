@@ -3,11 +3,11 @@
 use ratatui::layout::Rect;
 
 use super::{
-    Screen,
     layout::{split_left, split_right},
-    numbers,
+    screen::Screen,
     sheet::{self, Sheet},
 };
+use crate::format;
 
 /// Draws the timeline: 0, a tick for every column with impacts, higher for more, a cursor at t, the end, the count.
 pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
@@ -16,10 +16,10 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let faint = sheet.palette.faint();
     let used = sheet.put(area, " 0 ", faint);
     let (_, rest) = split_left(area, used);
-    let mut right = format!(" {} s ", numbers::short(end));
+    let mut right = format!(" {} s ", format::setting(end));
     if rest.width >= 50 {
         let impacts = snapshot.tallies.impacts;
-        right += &format!(" {:>6} {} ", numbers::count(impacts), if impacts == 1 { "impact " } else { "impacts" });
+        right += &format!(" {:>6} {} ", format::thousands(impacts), if impacts == 1 { "impact " } else { "impacts" });
     }
     let columns = (sheet::width(&right) as u16).min(rest.width);
     let (track, right_area) = split_right(rest, columns);

@@ -3,11 +3,11 @@
 use ratatui::layout::Rect;
 
 use super::{
-    Beside, Screen,
     layout::{split_left, split_right, split_top},
-    numbers,
+    screen::{Comparison, Screen},
     sheet::Sheet,
 };
+use crate::format;
 use crate::snapshot::{Ghost, Trend};
 
 /// Columns for a quantity's name, value and unit.
@@ -32,10 +32,10 @@ enum Scale {
 type Row<'a> = (&'a str, &'a str, &'a Trend, Scale);
 
 /// Draws the comparison: a heading, and a row for each quantity as far as there are rows.
-pub(super) fn draw(screen: &Screen, beside: &Beside, area: Rect, sheet: &mut Sheet) {
+pub(super) fn draw(screen: &Screen, comparison: &Comparison, area: Rect, sheet: &mut Sheet) {
     let (row, mut rest) = split_top(area, 1);
-    draw_heading(screen, beside, row, sheet);
-    let trade = beside.trade;
+    draw_heading(screen, comparison, row, sheet);
+    let trade = comparison.trade;
     let rows: [Row; 5] = [
         ("error", "m", &trade.deviation, Scale::Log),
         ("energy", "relative", &trade.energy_error, Scale::Log),
@@ -43,7 +43,7 @@ pub(super) fn draw(screen: &Screen, beside: &Beside, area: Rect, sheet: &mut She
         ("gaps", "a frame", &trade.evaluations, Scale::Linear),
         ("CPU", "ms/s", &trade.cost, Scale::Linear),
     ];
-    let past = beside.ghost.filter(|ghost| ghost.is_past_horizon()).and_then(|ghost| ghost.horizon);
+    let past = comparison.ghost.filter(|ghost| ghost.is_past_horizon()).and_then(|ghost| ghost.horizon);
     for (i, quantity) in rows.iter().enumerate() {
         let (row, below) = split_top(rest, 1);
         match past {
@@ -55,9 +55,9 @@ pub(super) fn draw(screen: &Screen, beside: &Beside, area: Rect, sheet: &mut She
 }
 
 /// Where the exact run is, and how far off the selected sphere is, or the worst.
-fn draw_heading(screen: &Screen, beside: &Beside, row: Rect, sheet: &mut Sheet) {
+fn draw_heading(screen: &Screen, comparison: &Comparison, row: Rect, sheet: &mut Sheet) {
     let (heading, plain, faint) = (sheet.palette.heading(), sheet.palette.plain(), sheet.palette.faint());
-    let Some(ghost) = beside.ghost else {
+    let Some(ghost) = comparison.ghost else {
         sheet.put_all(row, &[(" exact run ", heading), ("on its way", faint)]);
         return;
     };
@@ -66,9 +66,9 @@ fn draw_heading(screen: &Screen, beside: &Beside, row: Rect, sheet: &mut Sheet) 
         return;
     }
     let snapshot = screen.snapshot;
-    let t = numbers::clock(ghost.t, snapshot.stage.duration.max(ghost.t), snapshot.dt);
+    let t = format::clock(ghost.t, snapshot.stage.duration.max(ghost.t), snapshot.dt);
     let behind = match snapshot.t - ghost.t {
-        lag if lag > 0.0 => format!("  {} s behind", numbers::decimal(lag, 5, 2).trim_start()),
+        lag if lag > 0.0 => format!("  {} s behind", format::decimal(lag, 5, 2).trim_start()),
         _ => String::new(),
     };
     let pieces =
@@ -86,7 +86,7 @@ fn offset(screen: &Screen, ghost: &Ghost) -> String {
     if ghost.is_past_horizon() {
         return String::new();
     }
-    let selected = screen.look.selected.and_then(|i| Some((i, *ghost.deviations.get(i)?)));
+    let selected = screen.view_settings.selected.and_then(|i| Some((i, *ghost.deviations.get(i)?)));
     match (selected, ghost.worst()) {
         (Some((i, off)), _) => format!("#{i} selected, off by {} m ", format_args!("{off:.2e}")),
         (None, Some((i, off))) if off > 0.0 => format!("#{i} is furthest off, by {} m ", format_args!("{off:.2e}")),
@@ -96,15 +96,15 @@ fn offset(screen: &Screen, ghost: &Ghost) -> String {
 
 /// In the error's place: positions mean nothing any more.
 fn draw_past(horizon: f64, row: Rect, sheet: &mut Sheet) {
-    let text = format!("past this scene's horizon of {} s: positions mean nothing", numbers::short(horizon));
+    let text = format!("past this scene's horizon of {} s: positions mean nothing", format::setting(horizon));
     sheet.put_all(row, &[(" error    ", sheet.palette.faint()), (&text, sheet.palette.notice())]);
 }
 
 fn draw_quantity((name, unit, trend, scale): &Row, row: Rect, sheet: &mut Sheet) {
     let (faint, plain) = (sheet.palette.faint(), sheet.palette.plain());
     let show = |value: f64| match scale {
-        Scale::Log => numbers::scientific(value, 10),
-        Scale::Linear => numbers::decimal(value, 10, 1),
+        Scale::Log => format::scientific(value, 10),
+        Scale::Linear => format::decimal(value, 10, 1),
     };
     let value = trend.last.map_or_else(|| format!("{:>10}", "-"), show);
     sheet.put_all(row, &[(&format!(" {name:<8}"), faint), (&value, plain), (&format!(" {unit}"), faint)]);
@@ -124,7 +124,7 @@ fn draw_quantity((name, unit, trend, scale): &Row, row: Rect, sheet: &mut Sheet)
     if range.width == RANGE {
         let show = |value: f64| match scale {
             Scale::Log => format!("{value:.0e}"),
-            Scale::Linear => numbers::short(value),
+            Scale::Linear => format::setting(value),
         };
         let ends = format!("{} {} {} ", show(least), sheet.glyphs.ellipsis, show(most));
         sheet.put_right(range, &ends, faint);

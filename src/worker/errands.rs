@@ -7,11 +7,11 @@ use std::{
 };
 
 use super::{
-    Notify,
     mailbox::{Sender, mailbox},
+    message::Notify,
 };
 
-/// The thread, seen from who asks. Dropping it ends the thread after the errand under way.
+/// The thread, seen from the one that asks. Dropping it ends the thread after the errand under way.
 pub struct Errands {
     wanted: Sender<Box<dyn FnOnce() + Send>>,
     notify: Notify,

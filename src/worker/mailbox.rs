@@ -1,22 +1,21 @@
-//! A box for one letter: the sender never waits and replaces a letter that has not been read, so that a reader that
-//! gets little of the processor costs the memory of one letter and no more.
+//! A channel that holds one value: the sender never waits and replaces a value that has not been read, so that a reader
+//! that gets little of the processor costs the memory of one value and no more.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// A new, empty box.
+/// The two ends of a new, empty mailbox.
 pub(super) fn mailbox<T>() -> (Sender<T>, Reader<T>) {
-    let shared =
-        Arc::new(Shared { content: Mutex::new(Content { letter: None, open: true }), changed: Condvar::new() });
+    let shared = Arc::new(Shared { content: Mutex::new(Content { value: None, open: true }), changed: Condvar::new() });
     (Sender(Arc::clone(&shared)), Reader(shared))
 }
 
-/// The sending end. Dropping it closes the box.
+/// The sending end. Dropping it closes the mailbox.
 pub(super) struct Sender<T>(Arc<Shared<T>>);
 
 /// The reading end.
 pub(super) struct Reader<T>(Arc<Shared<T>>);
 
-/// The sender is gone; a letter it may have left is of no more use.
+/// The sender is gone; a value that it may have left is dropped.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Closed;
 
@@ -26,16 +25,16 @@ struct Shared<T> {
 }
 
 struct Content<T> {
-    letter: Option<T>,
+    value: Option<T>,
     open: bool,
 }
 
 impl<T> Sender<T> {
-    /// Puts a letter in place of the one that waits, if one does.
-    pub(super) fn put(&self, letter: T) {
-        let replaced = self.0.lock().letter.replace(letter);
+    /// Puts a value in place of the one that waits, if one does.
+    pub(super) fn put(&self, value: T) {
+        let replaced = self.0.lock().value.replace(value);
         self.0.changed.notify_one();
-        drop(replaced); // without the lock: a large letter takes its time
+        drop(replaced); // without the lock: a large value takes its time
     }
 }
 
@@ -47,24 +46,24 @@ impl<T> Drop for Sender<T> {
 }
 
 impl<T> Reader<T> {
-    /// The letter, if one waits.
+    /// The value, if one waits.
     ///
     /// # Errors
     /// If the sender is gone.
     pub(super) fn look(&self) -> Result<Option<T>, Closed> {
         let mut content = self.0.lock();
-        if content.open { Ok(content.letter.take()) } else { Err(Closed) }
+        if content.open { Ok(content.value.take()) } else { Err(Closed) }
     }
 
-    /// Waits for a letter.
+    /// Waits for a value.
     ///
     /// # Errors
     /// If the sender is gone.
     pub(super) fn wait(&self) -> Result<T, Closed> {
         let content = self.0.lock();
-        let empty = |content: &mut Content<T>| content.open && content.letter.is_none();
+        let empty = |content: &mut Content<T>| content.open && content.value.is_none();
         let mut content = self.0.changed.wait_while(content, empty).unwrap_or_else(PoisonError::into_inner);
-        content.letter.take().filter(|_| content.open).ok_or(Closed)
+        content.value.take().filter(|_| content.open).ok_or(Closed)
     }
 }
 
@@ -79,15 +78,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reader_that_never_reads_costs_one_letter() {
+    fn a_reader_that_never_reads_costs_one_value() {
         let (sender, reader) = mailbox();
-        let letter = Arc::new(());
+        let value = Arc::new(());
         for _ in 0..100_000 {
-            sender.put(Arc::clone(&letter));
+            sender.put(Arc::clone(&value));
         }
-        assert_eq!(Arc::strong_count(&letter), 2, "ours and the one in the box");
-        assert!(reader.look().is_ok_and(|letter| letter.is_some()));
-        assert_eq!(Arc::strong_count(&letter), 1);
+        assert_eq!(Arc::strong_count(&value), 2, "ours and the one in the mailbox");
+        assert!(reader.look().is_ok_and(|value| value.is_some()));
+        assert_eq!(Arc::strong_count(&value), 1);
     }
 
     #[test]
@@ -109,8 +108,8 @@ mod tests {
         let (sender, reader) = mailbox();
         let (told, read) = std::sync::mpsc::channel();
         let thread = std::thread::spawn(move || {
-            while let Ok(letter) = reader.wait() {
-                told.send(letter).expect("the test reads");
+            while let Ok(value) = reader.wait() {
+                told.send(value).expect("the test reads");
             }
         });
         sender.put('a');

@@ -1,5 +1,4 @@
-//! Where simulated time should be by now, how fast it really goes, and how much work fits between two looks at the
-//! commands. Wall time comes in as seconds, so that tests need no clock.
+//! Where simulated time should be by now, how fast it really goes. Wall time comes in as seconds, so that tests need no clock.
 
 /// A run that is further behind than this, s of wall time, gives the lost time up instead of chasing it.
 const PATIENCE: f64 = 0.1;
@@ -63,32 +62,6 @@ impl Pace {
     }
 }
 
-/// Work for one call of `advance`, learnt from how long the calls take.
-#[derive(Debug)]
-pub(super) struct Budget {
-    work: u64,
-}
-
-/// Aim for the length of a call, s: two of them and a snapshot stay below 10 ms.
-const CALL: f64 = 3e-3;
-
-impl Budget {
-    /// Little enough for any machine; a cheap scene multiplies it within milliseconds.
-    pub(super) fn new() -> Budget {
-        Budget { work: 256 }
-    }
-
-    pub(super) fn work(&self) -> u64 {
-        self.work
-    }
-
-    /// A call that used the whole budget took `length`, s.
-    pub(super) fn learn(&mut self, length: f64) {
-        let factor = (CALL / length.max(1e-9)).clamp(0.25, 4.0);
-        self.work = ((self.work as f64 * factor) as u64).clamp(16, 1 << 40);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,18 +89,5 @@ mod tests {
         assert_eq!(pace.reached(), Some(1.0));
         pace.measure(1.0, 2.0);
         assert_eq!(pace.reached(), Some(3.0));
-    }
-
-    #[test]
-    fn the_budget_grows_with_fast_calls_and_shrinks_with_slow_ones() {
-        let mut budget = Budget::new();
-        budget.learn(1e-6);
-        assert_eq!(budget.work(), 1024);
-        budget.learn(6e-3);
-        assert_eq!(budget.work(), 512);
-        for _ in 0..100 {
-            budget.learn(1.0);
-        }
-        assert_eq!(budget.work(), 16);
     }
 }

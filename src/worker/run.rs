@@ -9,13 +9,15 @@ use std::{
 };
 
 use super::{
-    Activity, Command, Job, Report, Slot,
-    pace::{Budget, Pace},
+    message::{Activity, Command, Job, Report},
+    pace::Pace,
+    slot::Slot,
 };
 use crate::{
     audit::Watch,
-    measure,
+    measure::{self, Slices},
     physics::{Class, Progress, Simulation, Stall, Until},
+    scene::Settings,
     snapshot::{Snapshot, Ticks},
 };
 
@@ -25,10 +27,13 @@ const TICK: f64 = 1.0 / 60.0;
 /// Frames are completed for this long, s, before the commands are looked at again.
 const SLICE: f64 = 4e-3;
 
+/// Aim for the length of a call of `advance`, s: two of them and a snapshot stay below 10 ms.
+const CALL: f64 = 3e-3;
+
 /// Reports take at most a fifth of the time, however large the scene.
 const REPORT_SHARE: f64 = 4.0;
 
-/// Where the run is going.
+/// Where the run ends its advance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
     Nowhere,
@@ -57,7 +62,7 @@ pub(super) struct Runner {
     goal: Goal,
     stall: Option<Stall>,
     pace: Pace,
-    budget: Budget,
+    slices: Slices,
     obeyed: u64,
     /// Whether the simulation has moved since `snapshot`.
     moved: bool,
@@ -83,7 +88,7 @@ impl Runner {
             goal: Goal::Nowhere,
             stall: None,
             pace: Pace::new(speed, 0.0, 0.0),
-            budget: Budget::new(),
+            slices: Slices::of(CALL),
             obeyed: 0,
             moved: false,
             unreported: false,
@@ -92,7 +97,7 @@ impl Runner {
         }
     }
 
-    /// Until nobody is left to send commands.
+    /// Obeys, advances and reports until no sender of commands is left.
     pub(super) fn run(&mut self, slot: &Slot<Report>) {
         while self.listen() {
             if self.goal != Goal::Nowhere {
@@ -107,7 +112,7 @@ impl Runner {
         }
     }
 
-    /// Obeys what has arrived; sleeps first if there is nothing else to do. False if nobody is left to send.
+    /// Obeys what has arrived; sleeps first if there is nothing else to do. False if no sender is left.
     fn listen(&mut self) -> bool {
         let first = match self.rest() {
             Some(0.0) => self.commands.try_recv().map_err(|error| error == TryRecvError::Empty),
@@ -184,7 +189,7 @@ impl Runner {
         self.pace = Pace::new(self.pace.wanted(), self.now(), self.simulation.time());
     }
 
-    fn restart(&mut self, settings: crate::scene::Settings) {
+    fn restart(&mut self, settings: Settings) {
         self.job.settings = settings;
         self.simulation = begin(&self.job);
         self.watch = Watch::new(&self.simulation);
@@ -216,7 +221,7 @@ impl Runner {
     /// One call into the simulation, and what follows from it.
     fn advance(&mut self, until: Until) {
         let before = self.now();
-        let progress = self.simulation.advance(until, self.budget.work());
+        let progress = self.simulation.advance(until, self.slices.work());
         self.watch.look(&self.simulation, false);
         self.moved = true;
         self.unreported = true;
@@ -227,7 +232,7 @@ impl Runner {
         }
         match progress {
             Progress::Reached => self.arrive(),
-            Progress::Yielded => self.budget.learn(self.now() - before),
+            Progress::Yielded => self.slices.learn(self.now() - before),
             Progress::Stalled(stall) => {
                 self.stall = Some(stall);
                 self.goal = Goal::Nowhere;
@@ -249,7 +254,7 @@ impl Runner {
         };
     }
 
-    /// The run as it stands.
+    /// A report of the run at the end of its last frame.
     pub(super) fn report(&mut self) -> Report {
         if self.moved {
             self.watch.look(&self.simulation, true);

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use super::Notify;
+use super::message::Notify;
 
 /// Holds the latest piece of news; the writer never waits for the reader.
 pub(super) struct Slot<T> {
@@ -15,7 +15,7 @@ pub(super) struct Slot<T> {
 }
 
 impl<T> Slot<T> {
-    /// With a first piece, of which nobody is told.
+    /// A slot with a first piece, of which the reader is not told.
     pub(super) fn new(first: T, notify: Notify) -> Slot<T> {
         Slot { latest: Mutex::new(Arc::new(first)), fresh: AtomicBool::new(false), notify }
     }

@@ -57,10 +57,12 @@ pub(crate) fn tube_scene(seed: u64) -> Scene {
         walls.push(wall(axes.along * 4.0, axes.up * 2.0, axes.across * 2.0));
     }
     let count = random.pick(&[1, 1, 2, 3]);
-    let mut spheres: Vec<Sphere> = Vec::new();
+    let (mut spheres, mut free): (Vec<Sphere>, f64) = (Vec::new(), f64::NEG_INFINITY);
     for k in 0..count {
-        let x = axes.along * (f64::from(k) * (2.0 * r + random.pick(&[0.0, 0.3, 0.7])) - 1.0);
-        let x = x + axes.up * (half - r) * random.pick(&[0.0, 1.0, -1.0]);
+        let place = f64::from(k) * (2.0 * r + random.pick(&[0.0, 0.3, 0.7])) - 1.0;
+        let place = if place < free - 1e-9 * r { free } else { place }; // not into the one before
+        free = place + 2.0 * r;
+        let x = axes.along * place + axes.up * (half - r) * random.pick(&[0.0, 1.0, -1.0]);
         let slide = axes.along * random.between(-3.0, 3.0);
         let rattle = axes.up * random.pick(&[0.0, 0.0, 0.0, 1.0]) * random.between(-1.0, 1.0);
         spheres.push(Sphere { mass: random.pick(&[1.0, 1.0, 10.0]), ..sphere(x, slide + rattle, r) });

@@ -41,12 +41,13 @@ fn in_units(scene: &Scene, length: f64, time: f64, off: f64) -> Scene {
         force: s.force * pull,
         ..s.clone()
     };
-    let mut scaled = scene.clone();
-    scaled.gravity *= pull;
-    scaled.contact.rest_speed *= speed;
-    scaled.walls = scene.walls.iter().map(wall).collect();
-    scaled.spheres = scene.spheres.iter().map(sphere).collect();
-    scaled
+    let scaled = scene.changed(|scaled| {
+        scaled.gravity *= pull;
+        scaled.contact.rest_speed *= speed;
+        scaled.walls = scene.walls.iter().map(wall).collect();
+        scaled.spheres = scene.spheres.iter().map(sphere).collect();
+    });
+    scaled.expect("a scene within the rules")
 }
 
 /// The events of a run until `t` (s), and why it did not get there if it did not.
@@ -73,11 +74,10 @@ fn apart(one: &Contact, other: &Contact, length: f64, time: f64) -> Option<f64> 
 
 /// The scene of this seed: a room or a joint, away from places that many bodies share by symmetry.
 fn base(seed: u64, random: &mut Random) -> Scene {
-    let mut scene = if seed.is_multiple_of(2) { room_scene(seed / 2) } else { joint_scene(seed / 2) };
+    let scene = if seed.is_multiple_of(2) { room_scene(seed / 2) } else { joint_scene(seed / 2) };
     let nudge = |random: &mut Random| random.vector() * 1e-3;
     let shift: DVec3 = nudge(random);
-    scene.spheres.iter_mut().for_each(|s| s.v += shift);
-    scene
+    scene.changed(|draft| draft.spheres.iter_mut().for_each(|s| s.v += shift)).expect("a scene within the rules")
 }
 
 /// Compares a scene with itself in other units.

@@ -1,4 +1,4 @@
-//! Nothing without bound: rows, time, memory and inputs that somebody asks for without meaning it.
+//! Nothing without bound: rows, time, memory and inputs that are asked for without being meant.
 
 use std::fs;
 use std::io::{BufRead, BufReader};

@@ -101,7 +101,7 @@ fn exact_competes_only_if_it_is_listed() {
 fn an_interrupt_keeps_what_is_done_and_says_so() {
     let folder = folder();
     let csv = in_folder(&folder, "rows.csv");
-    // The second setting takes 2e9 frames: nobody waits for it.
+    // The second setting takes 2e9 frames, more than a test waits for.
     let arguments = [
         "measure",
         "paper-0",
@@ -134,7 +134,7 @@ fn an_interrupt_before_anything_is_done_keeps_the_old_results() {
     let (csv, svg) = (in_folder(&folder, "rows.csv"), in_folder(&folder, "trade.svg"));
     fs::write(&csv, "precious").expect("a file");
     fs::write(&svg, "dear").expect("a file");
-    // It takes 2e9 frames: nobody waits for it.
+    // It takes 2e9 frames, more than a test waits for.
     let setting =
         ["measure", "paper-0", "--methods=paper", "--dt=1e-8", "--tolerances=1e-3", "--csv", &csv, "--svg", &svg];
     let mut pty = pty::carom(&setting).run();

@@ -4,8 +4,9 @@
 #![allow(dead_code)]
 
 use carom::geometry::{Bounds, Parallelogram};
-use carom::physics::{Method, Progress, Scene, Settings, Simulation, Stall, Until};
-use carom::scene::{ContactLaw, Sphere, Wall};
+use carom::physics::{Method, Progress, Scene, Settings, Simulation, Stall, State};
+use carom::random::SplitMix64;
+use carom::scene::{ContactLaw, Draft, Sphere, Wall};
 use glam::{DVec3, dvec3};
 
 /// The contact law of the source paper.
@@ -47,17 +48,19 @@ pub(crate) fn room(min: DVec3, max: DVec3) -> Vec<Wall> {
 
 /// A scene of these bodies.
 pub(crate) fn scene(gravity: DVec3, contact: ContactLaw, walls: Vec<Wall>, spheres: Vec<Sphere>) -> Scene {
-    Scene {
-        name: String::from("built in code"),
-        about: String::new(),
-        gravity,
-        contact,
-        solver: paper(0.01, 1e-3),
-        duration: 20.0,
-        view: Bounds { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) },
-        walls,
-        spheres,
-    }
+    let view = Bounds { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
+    let draft = Draft { name: "built in code".into(), gravity, contact, view, ..Draft::new(walls, spheres) };
+    draft.validated().unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The scene after a change that keeps it within the rules.
+pub(crate) fn changed(scene: &Scene, change: impl FnOnce(&mut Draft)) -> Scene {
+    scene.changed(change).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The scene with its spheres where a run has taken them.
+pub(crate) fn moved(scene: &Scene, state: &State) -> Scene {
+    scene.moved(&state.x, &state.v).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// g of the source paper, m/s².
@@ -70,13 +73,39 @@ pub(crate) fn paper_scene(k: usize) -> Scene {
 
 /// Goes on to a frame that ends at or after `t` (s), in slices of `work`; why it stalled, if it did.
 pub(crate) fn run_to(run: &mut Simulation, t: f64, work: u64) -> Option<Stall> {
-    loop {
-        match run.advance(Until::Time(t), work) {
-            Progress::Reached => return None,
-            Progress::Yielded => {}
-            Progress::Stalled(stall) => return Some(stall),
+    match run.run_to(t, |_| Some(work)) {
+        Progress::Stalled(stall) => Some(stall),
+        Progress::Reached | Progress::Yielded => None,
+    }
+}
+
+/// The state at `until` (s), which is reached within a hundred million units of work.
+pub(crate) fn go(run: &mut Simulation, until: f64) -> State {
+    let mut slices = 0..1000;
+    match run.run_to(until, |_| slices.next().map(|_| 100_000)) {
+        Progress::Reached => run.at(until),
+        Progress::Yielded => panic!("a hundred million units of work and still at {} s", run.time()),
+        Progress::Stalled(stall) => panic!("{}", stall.reason),
+    }
+}
+
+/// A square floor of this width (m) at y = 0, its centre at the origin.
+pub(crate) fn floor(width: f64) -> Wall {
+    wall(DVec3::ZERO, DVec3::X * width, DVec3::NEG_Z * width)
+}
+
+/// A pyramid of so many square layers of spheres of radius 0.5 m, apart by `gap` (m), the lowest just between four walls.
+pub(crate) fn pyramid(layers: u8, gap: f64, contact: ContactLaw) -> Scene {
+    let (half, mut spheres) = (0.5 * f64::from(layers), Vec::new());
+    for layer in 0..layers {
+        let (side, height) = (layers - layer, f64::from(layer) * (0.5_f64.sqrt() + gap));
+        for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+            let at = |k: u8| (f64::from(k) - f64::from(side - 1) * 0.5) * (1.0 + gap);
+            spheres.push(sphere(dvec3(at(i), 0.5 + gap + height, at(j)), DVec3::ZERO, 0.5));
         }
     }
+    let width = half * (1.0 + gap);
+    scene(G, contact, room(dvec3(-width, 0.0, -width), dvec3(width, 20.0, width)), spheres)
 }
 
 /// `n`³ spheres of mass 1 kg on a cubic lattice about the origin, all with the same velocity.
@@ -89,14 +118,8 @@ pub(crate) fn lattice(n: usize, spacing: f64, v: DVec3, radius: f64) -> Vec<Sphe
 /// An elastic gas of `n` spheres of radius 0.1 m and rms speed 1 m/s per axis (uniform, not yet thermal), filling a
 /// tenth of its box.
 pub(crate) fn gas(n: usize, seed: u64, speed: f64) -> Scene {
-    let mut state = seed;
-    let mut centered = || {
-        // SplitMix64.
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-    };
+    let mut random = SplitMix64::new(seed);
+    let mut centered = || random.unit() - 0.5;
     // A tenth: spheres of 4/3 π 0.1³ m³ in cells of 0.3473 m, jittered by what the gap allows.
     let (side, spacing) = ((1..).find(|k| k * k * k >= n).unwrap_or(1), 0.3473);
     let mut spheres = lattice(side, spacing, DVec3::ZERO, 0.1);

@@ -1,7 +1,7 @@
 //! The built program in a real pseudo-terminal, with an emulator looking on.
 //!
 //! Reading happens on a thread, one read per request, so that a test can wait for output with a bound, and so that
-//! nobody else holds the terminal open when a test closes it.
+//! nothing else holds the terminal open when a test closes it.
 
 use std::{
     io::{Read, Write},
@@ -35,7 +35,7 @@ pub(crate) fn carom<'a>(arguments: &'a [&'a str]) -> Start<'a> {
 /// A program in a terminal.
 pub(crate) struct Pty {
     master: Box<dyn MasterPty + Send>,
-    /// Kept open: the kernel forgets a terminal's modes when nobody has it open.
+    /// Kept open: the kernel forgets the modes of a terminal that is not open.
     slave: Box<dyn SlavePty + Send>,
     writer: Box<dyn Write + Send>,
     requests: Sender<()>,

@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
+use carom::random::SplitMix64;
 use carom::{
     geometry::{Bounds, Parallelogram},
     snapshot::{Alarm, Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
-    view::{Beside, Look, Mode, Pace, Popup, Screen},
+    view::{Comparison, Mode, Pace, Popup, Screen, ViewSettings},
 };
 use glam::{DVec3, dvec3};
 
@@ -15,10 +16,10 @@ use glam::{DVec3, dvec3};
 pub(crate) struct Scene {
     pub(crate) snapshot: Snapshot,
     pub(crate) ticks: Ticks,
-    pub(crate) look: Look,
+    pub(crate) view_settings: ViewSettings,
     pub(crate) pace: Pace,
     /// The exact run beside it.
-    pub(crate) beside: Option<(Option<Ghost>, Trade)>,
+    pub(crate) comparison: Option<(Option<Ghost>, Trade)>,
 }
 
 pub(crate) const HINTS: &[(&str, &str)] = &[
@@ -40,8 +41,8 @@ impl Scene {
             snapshot: &self.snapshot,
             pace: self.pace,
             ticks: &self.ticks,
-            beside: self.beside.as_ref().map(|(ghost, trade)| Beside { ghost: ghost.as_ref(), trade }),
-            look: &self.look,
+            comparison: self.comparison.as_ref().map(|(ghost, trade)| Comparison { ghost: ghost.as_ref(), trade }),
+            view_settings: &self.view_settings,
             popup: Popup::None,
             message: None,
             hints: HINTS,
@@ -99,7 +100,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
     };
     let ticks = Ticks { span: 20.0, impacts: vec![0; 80] };
     let pace = Pace { mode: Mode::Pause, wanted: 1.0, reached: None };
-    Scene { snapshot, ticks, look: Look::default(), pace, beside: None }
+    Scene { snapshot, ticks, view_settings: ViewSettings::default(), pace, comparison: None }
 }
 
 /// Changes what is constant.
@@ -168,7 +169,7 @@ pub(crate) fn wedge() -> Scene {
         scene.ticks.impacts[bin] = impacts;
     }
     scene.pace = Pace { mode: Mode::Run, wanted: 0.25, reached: Some(0.2493) };
-    scene.look.selected = Some(0);
+    scene.view_settings.selected = Some(0);
     scene
 }
 
@@ -197,9 +198,9 @@ pub(crate) fn pile() -> Scene {
             ..contact(Kind::Pair, 1, 2, Class::Leave)
         },
     ];
-    scene.look.overlays.velocities = true;
-    scene.look.overlays.normals = true;
-    scene.look.overlays.ids = true;
+    scene.view_settings.overlays.velocities = true;
+    scene.view_settings.overlays.normals = true;
+    scene.view_settings.overlays.ids = true;
     scene
 }
 
@@ -219,8 +220,8 @@ pub(crate) fn strayed() -> Scene {
         trade.evaluations.add(t, f64::from(8 + k % 7));
         trade.cost.add(t, 0.35 + 0.01 * f64::from(k % 3));
     }
-    scene.look.ghost = true;
-    scene.beside = Some((Some(ghost), trade));
+    scene.view_settings.ghost = true;
+    scene.comparison = Some((Some(ghost), trade));
     scene
 }
 
@@ -238,15 +239,10 @@ pub(crate) fn stalled() -> Scene {
     scene
 }
 
-/// Many spheres of three sizes on a jittered grid: positions by SplitMix64, the same everywhere.
+/// Many spheres of three sizes on a jittered grid: positions the same everywhere.
 pub(crate) fn gas(count: usize) -> Scene {
-    let mut state = 7_u64;
-    let mut uniform = move || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = SplitMix64::new(7);
+    let mut uniform = move || random.unit();
     let mut place = || dvec3(-4.7 + 9.4 * uniform(), 0.3 + 9.4 * uniform(), -2.2 + 4.4 * uniform());
     let spheres: Vec<_> = (0..count).map(|_| (place(), place() * 0.2)).collect();
     let mut scene = scene("gas", &spheres);

@@ -48,6 +48,8 @@ pub(crate) struct Named {
     pub(crate) line: usize,
     /// Lines from its first to its last.
     pub(crate) lines: usize,
+    /// Arguments of a function, `self` not counted.
+    pub(crate) arguments: usize,
 }
 
 /// What a file says.
@@ -221,12 +223,14 @@ impl Reader {
     }
 
     fn call(&mut self, name: String, line: usize) {
-        self.contents.calls.push(Named { name, line, lines: 1 });
+        self.contents.calls.push(Named { name, line, lines: 1, arguments: 0 });
     }
 
     fn function(&mut self, signature: &syn::Signature, body: &syn::Block) {
         let (line, end) = (signature.span().start().line, body.span().end().line);
-        self.contents.functions.push(Named { name: signature.ident.to_string(), line, lines: end - line + 1 });
+        let arguments = signature.inputs.iter().filter(|input| matches!(input, syn::FnArg::Typed(_))).count();
+        let name = signature.ident.to_string();
+        self.contents.functions.push(Named { name, line, lines: end - line + 1, arguments });
     }
 }
 
@@ -284,7 +288,7 @@ impl<'ast> Visit<'ast> for Reader {
     fn visit_attribute(&mut self, attribute: &'ast syn::Attribute) {
         let line = attribute.span().start().line;
         let name = attribute.path().segments.first().map(|segment| segment.ident.to_string()).unwrap_or_default();
-        self.contents.attributes.push(Named { name, line, lines: 1 });
+        self.contents.attributes.push(Named { name, line, lines: 1, arguments: 0 });
         if let syn::Meta::List(list) = &attribute.meta {
             self.tokens(list.tokens.clone());
         }

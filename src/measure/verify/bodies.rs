@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use crate::geometry::{Bounds, Parallelogram};
-use crate::physics::{ContactLaw, Method, Scene, Settings, Simulation};
-use crate::scene::{Sphere, Wall};
+use super::runner::Trouble;
+use crate::geometry::Parallelogram;
+use crate::physics::Simulation;
+use crate::scene::{ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};
 
 /// g, m/s².
 pub(super) const G: f64 = 9.8;
@@ -34,18 +35,12 @@ pub(super) fn floor() -> Wall {
 }
 
 /// A scene of these bodies under gravity `g` (m/s²).
-pub(super) fn scene(g: DVec3, contact: ContactLaw, walls: Vec<Wall>, spheres: Vec<Sphere>) -> Scene {
-    Scene {
-        name: String::from("a known result"),
-        about: String::new(),
-        gravity: g,
-        contact,
-        solver: EXACT,
-        duration: 20.0,
-        view: Bounds { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) },
-        walls,
-        spheres,
-    }
+///
+/// # Errors
+/// If they break a rule of scenes.
+pub(super) fn scene(g: DVec3, contact: ContactLaw, walls: Vec<Wall>, spheres: Vec<Sphere>) -> Result<Scene, Trouble> {
+    let draft = Draft::new(walls, spheres);
+    Ok(Draft { name: "a known result".into(), gravity: g, contact, solver: EXACT, ..draft }.validated()?)
 }
 
 /// The event-driven method; its dt only says how often a frame ends.

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::bodies::{ELASTIC, exact, scene, smooth, sphere, wall};
-use super::{Check, Lab, Row, Trouble};
+use super::check::Check;
+use super::runner::{Row, Runner, Trouble};
 use crate::physics::State;
 use crate::scene::Sphere;
 
@@ -36,26 +37,26 @@ fn ball(x: f64, v: f64, mass: f64) -> Sphere {
     Sphere { mass, ..sphere(DVec3::X * x, DVec3::X * v, 0.5) }
 }
 
-fn digits(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    lab.pick([1, 3, 4], [2, 4, 6]).into_iter().map(|k| count(lab, k)).collect()
+fn digits(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    runner.pick([1, 3, 4], [2, 4, 6]).into_iter().map(|k| count(runner, k)).collect()
 }
 
-fn count(lab: &Lab, k: i32) -> Result<Row, Trouble> {
+fn count(runner: &Runner, k: i32) -> Result<Row, Trouble> {
     let stop = wall(DVec3::ZERO, DVec3::Y * 4.0, DVec3::Z * 4.0);
     let balls = vec![ball(2.0, 0.0, 1.0), ball(4.0, -1.0, 100_f64.powi(k))];
-    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, vec![stop], balls));
+    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, vec![stop], balls)?);
     run.record_events(false);
     // After a second of approach and the turn, no impact is left a hundred seconds on.
-    lab.go(&mut run, 100.0)?;
+    runner.go(&mut run, 100.0)?;
     let found = run.tallies().impacts as f64;
     Ok(Row::new(format!("impacts, masses 1 : 100^{k}"), "", [(PI * 10_f64.powi(k)).floor(), found], 0.0))
 }
 
-fn squeeze(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn squeeze(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let row = |(e, heavy): (f64, f64)| {
         let stop = wall(DVec3::ZERO, DVec3::Y * 10.0, DVec3::Z * 10.0);
         let balls = vec![ball(0.5, 0.0, 1.0), ball(4.0, -1.0, heavy)];
-        let state = lab.go(&mut exact(&scene(DVec3::ZERO, smooth(e), vec![stop], balls)), 4.0)?;
+        let state = runner.go(&mut exact(&scene(DVec3::ZERO, smooth(e), vec![stop], balls)?), 4.0)?;
         Ok(Row::new(format!("heavy out, e = {e}"), "m/s", [blow_by_blow(e, heavy), state.v[1].x], 1e-11))
     };
     [(0.99999, 1e7), (0.999, 1e4)].into_iter().map(row).collect()
@@ -80,14 +81,14 @@ const BALLS: usize = 5;
 /// Speed of those that come in, m/s.
 const SPEED: f64 = 2.0;
 
-fn cradle(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    (1..=3).map(|incoming| swing(lab, incoming)).collect()
+fn cradle(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    (1..=3).map(|incoming| swing(runner, incoming)).collect()
 }
 
-fn swing(lab: &Lab, incoming: usize) -> Result<Row, Trouble> {
+fn swing(runner: &Runner, incoming: usize) -> Result<Row, Trouble> {
     let swung = |k: usize| if k < incoming { ball(k as f64 - 5.0, SPEED, 1.0) } else { ball(k as f64, 0.0, 1.0) };
-    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, Vec::new(), (0..BALLS).map(swung).collect()));
-    let state = lab.go(&mut run, 6.0)?;
+    let mut run = exact(&scene(DVec3::ZERO, ELASTIC, Vec::new(), (0..BALLS).map(swung).collect())?);
+    let state = runner.go(&mut run, 6.0)?;
     Ok(Row::new(format!("cradle, balls out for {incoming} in"), "", [incoming as f64, leaving(&state)], 0.0))
 }
 

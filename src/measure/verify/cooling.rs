@@ -1,9 +1,10 @@
 //! Haff's law: how a gas that loses energy at impacts cools while it is homogeneous.
 
 use super::bodies::ELASTIC;
+use super::check::Check;
 use super::gas::{Gas, SIGMA, continued, gas};
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::ContactLaw;
+use super::runner::{Row, Runner, Trouble};
+use crate::scene::ContactLaw;
 
 pub(super) const CHECK: Check = Check {
     title: "Haff's law",
@@ -19,18 +20,18 @@ const E: f64 = 0.99;
 /// Share of the box that is filled: dilute, so that nothing clusters for long.
 const PACKING: f64 = 0.1;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let (count, looks) = lab.pick((2000, 500), (10_000, 2000));
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let (count, looks) = runner.pick((2000, 500), (10_000, 2000));
     let scene = gas(PACKING, count, &[1.0])?;
-    let mut elastic = Gas::thermal(lab, &scene)?;
+    let mut elastic = Gas::thermal(runner, &scene)?;
     let (start, window) = (elastic.run.time(), 0.1 * SIGMA * f64::from(looks));
     let state = elastic.go(start + window)?;
     let before = elastic.impacts().filter(|impact| impact.time <= start + window).count() as f64;
     let rate = 2.0 * before / (elastic.count * window);
     let tau = 6.0 / ((1.0 - E * E) * rate);
 
-    let lossy = continued(&scene, &state, ContactLaw { restitution: E, ..ELASTIC });
-    let mut gas = Gas::new(lab, &lossy);
+    let lossy = continued(&scene, &state, ContactLaw { restitution: E, ..ELASTIC })?;
+    let mut gas = Gas::new(runner, &lossy);
     gas.run.record_events(true);
     let first = gas.temperature();
     // T falls to 4/9: 122 impacts of each sphere.

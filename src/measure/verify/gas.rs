@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::bodies::EXACT;
-use super::{Lab, Trouble};
-use crate::physics::{Class, Contact, ContactLaw, Kind, Scene, Simulation, State};
-use crate::scene;
+use super::runner::{Runner, Trouble};
+use crate::physics::{Class, Contact, Kind, Simulation, State};
+use crate::scene::{self, ContactLaw, Scene};
 
 /// Radius of every sphere, m.
 pub(super) const RADIUS: f64 = 0.1;
@@ -29,7 +29,7 @@ pub(super) fn gas(packing: f64, count: usize, masses: &[f64]) -> Result<Scene, T
         "Scene(contact: (restitution: 1, tangential: 1, rest_speed: 0), walls: [Room({corners})], spheres: [{}])",
         parts.join(", ")
     );
-    scene::parse(&text, "gas").map_err(|error| Trouble::Failed(error.to_string()))
+    Ok(scene::parse(&text, "gas")?)
 }
 
 /// Edge of the cube, m; in millimetres, so that a machine's own cube root does not show.
@@ -38,30 +38,29 @@ pub(super) fn side(packing: f64, count: usize) -> f64 {
 }
 
 /// The scene at another moment, under another law of contact.
-pub(super) fn continued(scene: &Scene, state: &State, contact: ContactLaw) -> Scene {
-    let mut scene = Scene { contact, ..scene.clone() };
-    for (body, (x, v)) in scene.spheres.iter_mut().zip(state.x.iter().zip(&state.v)) {
-        (body.x, body.v) = (*x, *v);
-    }
-    scene
+///
+/// # Errors
+/// If that breaks a rule of scenes.
+pub(super) fn continued(scene: &Scene, state: &State, contact: ContactLaw) -> Result<Scene, Trouble> {
+    Ok(scene.changed(|draft| draft.contact = contact)?.moved(&state.x, &state.v)?)
 }
 
 /// A gas under way.
 pub(super) struct Gas<'a> {
-    lab: &'a Lab<'a>,
+    runner: &'a Runner<'a>,
     pub(super) run: Simulation,
     pub(super) count: f64,
 }
 
 impl<'a> Gas<'a> {
     /// From this scene on, in which nothing has happened yet.
-    pub(super) fn new(lab: &'a Lab, scene: &Scene) -> Gas<'a> {
-        Gas { lab, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
+    pub(super) fn new(runner: &'a Runner, scene: &Scene) -> Gas<'a> {
+        Gas { runner, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
     }
 
-    /// The same, after so long that the start is forgotten.
-    pub(super) fn thermal(lab: &'a Lab, scene: &Scene) -> Result<Gas<'a>, Trouble> {
-        let mut gas = Gas::new(lab, scene);
+    /// From this scene on, run until the start is forgotten.
+    pub(super) fn thermal(runner: &'a Runner, scene: &Scene) -> Result<Gas<'a>, Trouble> {
+        let mut gas = Gas::new(runner, scene);
         gas.go(WARM_UP)?;
         gas.run.record_events(true);
         gas.run.take_events();
@@ -70,7 +69,7 @@ impl<'a> Gas<'a> {
 
     /// The state at `time`, s.
     pub(super) fn go(&mut self, time: f64) -> Result<State, Trouble> {
-        self.lab.go(&mut self.run, time)
+        self.runner.go(&mut self.run, time)
     }
 
     /// The impacts of pairs since the last look.

@@ -1,8 +1,9 @@
 //! Golden hashes: the bits that every build on every machine makes.
 
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Method, Settings, Simulation};
-use crate::scene;
+use super::check::Check;
+use super::runner::{Row, Runner, Trouble};
+use crate::physics::Simulation;
+use crate::scene::{self, Method, Settings};
 
 /// A run and the hash of its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,25 +63,25 @@ impl Golden {
     ///
     /// # Errors
     /// If the scene is not known or the run stalls: a full sentence.
-    pub fn found(&self, lab: &Lab) -> Result<u64, Trouble> {
-        let opened = scene::open(self.scene).map_err(|error| Trouble::Failed(error.to_string()))?;
+    pub fn found(&self, runner: &Runner) -> Result<u64, Trouble> {
+        let opened = scene::open(self.scene)?;
         let settings = Settings { method: self.method, dt: 0.01, tolerance: 1e-3 };
-        Ok(lab.go(&mut Simulation::new(&opened.scene, settings), self.until)?.hash())
+        Ok(runner.go(&mut Simulation::new(&opened.scene, settings), self.until)?.hash())
     }
 }
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let mut methods: Vec<Method> = GOLDEN.iter().map(|golden| golden.method).collect();
     methods.dedup();
-    methods.into_iter().map(|method| equal(lab, method)).collect()
+    methods.into_iter().map(|method| equal(runner, method)).collect()
 }
 
 /// How many runs of a method end with the bits of old.
-fn equal(lab: &Lab, method: Method) -> Result<Row, Trouble> {
+fn equal(runner: &Runner, method: Method) -> Result<Row, Trouble> {
     let (mut runs, mut same) = (0, 0);
     for golden in GOLDEN.iter().filter(|golden| golden.method == method) {
         runs += 1;
-        same += u32::from(golden.found(lab)? == golden.hash);
+        same += u32::from(golden.found(runner)? == golden.hash);
     }
     Ok(Row::new(format!("golden hashes, {}", method.name()), "", [f64::from(runs), f64::from(same)], 0.0))
 }

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::bodies::{G, exact, floor, scene, smooth, sphere, wall};
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Class, Scene, Until};
-use crate::scene::Wall;
+use super::check::Check;
+use super::runner::{Row, Runner, Trouble};
+use crate::physics::{Class, Until};
+use crate::scene::{Scene, Wall};
 
 /// Radius of every ball, m.
 const R: f64 = 0.5;
@@ -21,14 +22,14 @@ pub(super) const RIDGE: Check = Check {
 /// Speed on the plateau, m/s.
 const SPEED: f64 = 0.5;
 
-fn ridge(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let mut steep = exact(&plateau_and_slope(DVec3::new(0.6, -0.8, 0.0)));
-    lab.go(&mut steep, 2.0)?;
+fn ridge(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let mut steep = exact(&plateau_and_slope(DVec3::new(0.6, -0.8, 0.0))?);
+    runner.go(&mut steep, 2.0)?;
     let release = steep.take_events().into_iter().rfind(|event| event.class == Class::Release);
     let cosine = 2.0 / 3.0 * (1.0 + SPEED * SPEED / (2.0 * G * R));
-    let gentle = plateau_and_slope(DVec3::new(0.8, -0.6, 0.0));
+    let gentle = plateau_and_slope(DVec3::new(0.8, -0.6, 0.0))?;
     let mut run = exact(&gentle);
-    let end = lab.go(&mut run, 2.0)?;
+    let end = runner.go(&mut run, 2.0)?;
     let (x, v) = (end.x[0], end.v[0]);
     let fallen = R - x.y;
     let height = DVec3::new(0.6, 0.8, 0.0).dot(x);
@@ -40,7 +41,7 @@ fn ridge(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 }
 
 /// A ball on its way over a plateau to the slope that goes on from its edge along `down`.
-fn plateau_and_slope(down: DVec3) -> Scene {
+fn plateau_and_slope(down: DVec3) -> Result<Scene, Trouble> {
     let plateau = wall(DVec3::NEG_X * 5.0, DVec3::X * 10.0, DVec3::Z * 10.0);
     let slope = wall(down * 5.0, down * 10.0, DVec3::Z * 10.0);
     let ball = sphere(DVec3::new(-0.5, R, 0.0), DVec3::X * SPEED, R);
@@ -55,10 +56,13 @@ pub(super) const TILES: Check = Check {
     measure: tiles,
 };
 
-fn tiles(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn tiles(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let law = smooth(0.5);
     let ball = sphere(DVec3::new(-7.0, R + 0.2, -7.0), DVec3::new(1.5, 0.0, 1.5), R);
-    let over = |walls: Vec<Wall>| lab.go(&mut exact(&scene(DVec3::Y * -G, law, walls, vec![ball.clone()])), 9.0);
+    let over = |walls: Vec<Wall>| {
+        let tiles = scene(DVec3::Y * -G, law, walls, vec![ball.clone()])?;
+        runner.go(&mut exact(&tiles), 9.0)
+    };
     let one = over(vec![floor()])?;
     let row = |(what, crack): (&str, f64)| {
         let many = over(tiled(crack))?;
@@ -83,11 +87,11 @@ pub(super) const FUNNEL: Check = Check {
     measure: funnels,
 };
 
-fn funnels(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn funnels(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let mut rows = Vec::new();
-    for sides in lab.pick(&[3, 4, 6][..], &[3, 4, 5, 6, 7, 8][..]) {
-        let mut run = exact(&funnel(*sides));
-        let before = lab.go(&mut run, 20.0)?;
+    for sides in runner.pick(&[3, 4, 6][..], &[3, 4, 5, 6, 7, 8][..]) {
+        let mut run = exact(&funnel(*sides)?);
+        let before = runner.go(&mut run, 20.0)?;
         run.advance(Until::Frame, u64::MAX);
         let resting = run.contacts().iter().filter(|contact| contact.class == Class::Rest);
         let given: DVec3 = resting.map(|contact| contact.normal * contact.impulse).sum();
@@ -99,7 +103,7 @@ fn funnels(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 }
 
 /// A ball that falls into a funnel of so many slopes of 3 : 4, side by side around the axis.
-fn funnel(sides: u32) -> Scene {
+fn funnel(sides: u32) -> Result<Scene, Trouble> {
     let slope = |k: u32| {
         let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / f64::from(sides)).sin_cos();
         let (out, along) = (DVec3::new(cos, 0.0, sin), DVec3::new(-sin, 0.0, cos));

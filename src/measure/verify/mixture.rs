@@ -1,8 +1,9 @@
 //! Equipartition: heavy and light spheres come to the same mean energy.
 
+use super::check::Check;
 use super::gas::{Gas, SIGMA, gas};
+use super::runner::{Row, Runner, Trouble};
 use super::statistics::mean;
-use super::{Check, Lab, Row, Trouble};
 use crate::physics::State;
 
 pub(super) const CHECK: Check = Check {
@@ -19,9 +20,9 @@ const MASSES: [f64; 2] = [1.0, 4.0];
 /// Blocks whose averages count as independent.
 const BLOCKS: usize = 20;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let (count, looks) = lab.pick((500, 25), (2000, 100));
-    let mut gas = Gas::thermal(lab, &gas(0.2, count, &MASSES)?)?;
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let (count, looks) = runner.pick((500, 25), (2000, 100));
+    let mut gas = Gas::thermal(runner, &gas(0.2, count, &MASSES)?)?;
     let mut averages = Vec::new();
     for _ in 0..BLOCKS {
         let mut energies = [0.0; 2];

@@ -1,11 +1,12 @@
 //! Known results of physics and mathematics, measured on this machine.
 //!
 //! No expected value is an earlier result of ours, except for the golden hashes. Statistical rows have fixed seeds:
-//! what passes on one machine passes on all. Time is never part of a result.
+//! what passes on one machine passes on all. Time is never part of a result. Begin with `bounces`.
 //!
 //! | file | owns |
 //! |---|---|
-//! | `lab` | how thoroughly, how a run is advanced, what a row is |
+//! | `check` | a family of results, and what became of it |
+//! | `runner` | how thoroughly, how a run is advanced, what a row is |
 //! | `bodies` | scenes built in code |
 //! | `statistics` | means, standard errors, slopes |
 //! | `table` | the results as text |
@@ -14,15 +15,16 @@
 mod bodies;
 mod bounces;
 mod chains;
+mod check;
 mod cooling;
 mod gas;
 mod golden;
 mod joints;
-mod lab;
 mod mixture;
 mod pressure;
 mod rest;
 mod reversal;
+mod runner;
 mod statistics;
 mod steps;
 pub mod table;
@@ -31,20 +33,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
+pub use check::{Check, Outcome};
 pub use golden::{GOLDEN, Golden};
-pub use lab::{Depth, Lab, Row, Trouble};
-
-/// A family of known results that are measured together.
-#[derive(Debug, Clone, Copy)]
-pub struct Check {
-    /// What it is about, in two or three words.
-    pub title: &'static str,
-    /// What is expected, and who says so.
-    pub source: &'static str,
-    /// Why an error of that size is allowed.
-    pub allowed: &'static str,
-    measure: fn(&Lab) -> Result<Vec<Row>, Trouble>,
-}
+pub use runner::{Depth, Row, Runner, Trouble};
 
 /// Every family, in the order in which they are told.
 pub const CHECKS: &[Check] = &[
@@ -67,29 +58,16 @@ pub const CHECKS: &[Check] = &[
     golden::CHECK,
 ];
 
-impl Check {
-    /// Measures its rows; never empty.
-    ///
-    /// # Errors
-    /// If a run stalls, or the lab is not to go on.
-    pub fn rows(&self, lab: &Lab) -> Result<Vec<Row>, Trouble> {
-        (self.measure)(lab)
-    }
-}
-
-/// What became of a check: its place in [`CHECKS`], and its rows or why there are none.
-pub type Outcome = (usize, Result<Vec<Row>, Trouble>);
-
 /// Measures every check on so many threads, and tells each outcome as soon as it is there, in any order.
-pub fn verify(lab: Lab, threads: usize, mut tell: impl FnMut(Outcome)) {
+pub fn verify(runner: Runner, threads: usize, mut tell: impl FnMut(Outcome)) {
     let (next, (outcomes, inbox)) = (AtomicUsize::new(0), mpsc::channel());
     thread::scope(|scope| {
         for _ in 0..threads.clamp(1, CHECKS.len()) {
             let (next, outcomes) = (&next, outcomes.clone());
             scope.spawn(move || {
                 while let Some((index, check)) = claim(next) {
-                    // Nobody listens any more: the reader has gone, and so may we.
-                    if outcomes.send((index, check.rows(&lab))).is_err() {
+                    // The receiver has gone: there is nothing left to do.
+                    if outcomes.send((index, check.rows(&runner))).is_err() {
                         return;
                     }
                 }
@@ -112,8 +90,8 @@ mod tests {
 
     /// Titles of the checks that fail under a law of that restitution, but for `left_out`.
     fn failing(pairs: f64, walls: f64, left_out: &[&str]) -> Vec<&'static str> {
-        let lab = Lab::new(Depth::Quick, &|| true);
-        let fails = |check: &&Check| check.rows(&lab).map_or(true, |rows| !rows.iter().all(Row::passes));
+        let runner = Runner::new(Depth::Quick, &|| true);
+        let fails = |check: &&Check| check.rows(&runner).map_or(true, |rows| !rows.iter().all(Row::passes));
         let checks = CHECKS.iter().filter(|check| !left_out.contains(&check.title));
         with_restitution_times(pairs, walls, || checks.filter(fails).map(|check| check.title).collect())
     }
@@ -123,9 +101,9 @@ mod tests {
 
     #[test]
     fn under_the_right_law_every_check_has_rows_that_pass_and_names_that_fit() {
-        let lab = Lab::new(Depth::Quick, &|| true);
+        let runner = Runner::new(Depth::Quick, &|| true);
         for check in CHECKS.iter().filter(|check| !GASES.contains(&check.title)) {
-            let rows = check.rows(&lab).expect("a result");
+            let rows = check.rows(&runner).expect("a result");
             let fine = |row: &Row| row.passes() && row.what.chars().count() <= 28;
             assert!(!rows.is_empty() && rows.iter().all(fine), "{rows:?}");
         }
@@ -155,9 +133,9 @@ mod tests {
 
     #[test]
     fn who_is_told_not_to_go_on_has_no_result() {
-        let lab = Lab::new(Depth::Quick, &|| false);
+        let runner = Runner::new(Depth::Quick, &|| false);
         let mut told = Vec::new();
-        verify(lab, 2, |(index, outcome)| told.push((index, outcome == Err(Trouble::Interrupted))));
+        verify(runner, 2, |(index, outcome)| told.push((index, outcome == Err(Trouble::Interrupted))));
         told.sort_unstable();
         assert_eq!(told, (0..CHECKS.len()).map(|index| (index, true)).collect::<Vec<_>>());
     }

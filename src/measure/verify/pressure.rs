@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::check::Check;
 use super::gas::{Gas, SIGMA, gas, side};
-use super::{Check, Lab, Row, Trouble};
+use super::runner::{Row, Runner, Trouble};
 
 pub(super) const CHECK: Check = Check {
     title: "hard spheres",
@@ -24,13 +25,13 @@ const MARGIN: f64 = 3.0 * SIGMA;
 /// 2.4th power of the density, which is known to 5e-4.
 const ALLOWED: f64 = 3e-3;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let rows = lab.pick(&[0.2][..], &[0.1, 0.2, 0.3, 0.4]).iter().map(|&packing| both(lab, packing));
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let rows = runner.pick(&[0.2][..], &[0.1, 0.2, 0.3, 0.4]).iter().map(|&packing| both(runner, packing));
     Ok(rows.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
-fn both(lab: &Lab, packing: f64) -> Result<Vec<Row>, Trouble> {
-    let found = Bulk::of(lab, packing)?;
+fn both(runner: &Runner, packing: f64) -> Result<Vec<Row>, Trouble> {
+    let found = Bulk::of(runner, packing)?;
     let expected = compressibility(found.packing);
     let row =
         |road: &str, z: f64| Row::new(format!("Z, {road}, packing {:.4}", found.packing), "", [expected, z], ALLOWED);
@@ -66,10 +67,10 @@ struct Bulk {
 }
 
 impl Bulk {
-    fn of(lab: &Lab, packing: f64) -> Result<Bulk, Trouble> {
-        let (count, looks) = lab.pick((4000, 1000), (10_000, 1200));
+    fn of(runner: &Runner, packing: f64) -> Result<Bulk, Trouble> {
+        let (count, looks) = runner.pick((4000, 1000), (10_000, 1200));
         let scene = gas(packing, count, &[1.0])?;
-        let mut gas = Gas::thermal(lab, &scene)?;
+        let mut gas = Gas::thermal(runner, &scene)?;
         let region = Region { half: 0.5 * side(packing, count) - MARGIN };
         let start = gas.run.time();
         let (mut spheres, mut squares, mut impulses, mut impacts) = (0.0, 0.0, 0.0, 0.0);

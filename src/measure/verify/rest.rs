@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::bodies::{G, exact, floor, scene, sphere, wall};
-use super::{Check, Lab, Row, Trouble};
+use super::check::Check;
+use super::runner::{Row, Runner, Trouble};
+use crate::physics::State;
 use crate::physics::support::{Bodies, Resting, Surface, hold};
-use crate::physics::{ContactLaw, Scene, State};
-use crate::scene::Sphere;
+use crate::scene::{ContactLaw, Scene, Sphere};
 
 pub(super) const CHECK: Check = Check {
     title: "stacks at rest",
@@ -29,11 +30,11 @@ const NEAR: f64 = 1e-9;
 /// Forces, relative: factors of matrices of some sixty rows, all of numbers around 1.
 const FORCE: f64 = 1e-12;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let (column, pyramid) = (column(), pyramid());
-    let until = lab.pick(20.0, 100.0);
-    let column_end = lab.go(&mut exact(&column), until)?;
-    let pyramid_end = lab.go(&mut exact(&pyramid), until)?;
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let (column, pyramid) = (column()?, pyramid()?);
+    let until = runner.pick(20.0, 100.0);
+    let column_end = runner.go(&mut exact(&column), until)?;
+    let pyramid_end = runner.go(&mut exact(&pyramid), until)?;
     // Contacts in the order of the spheres, lowest first: the k-th carries all spheres from k on.
     let share = |(k, carried): (usize, Carried)| carried.force / (G * (column.spheres.len() - k) as f64);
     let shares = carried(&column, &column_end).into_iter().enumerate().map(share);
@@ -51,13 +52,13 @@ fn lying(x: DVec3) -> Sphere {
     sphere(x, DVec3::ZERO, 0.5)
 }
 
-fn column() -> Scene {
+fn column() -> Result<Scene, Trouble> {
     let spheres = (0..10).map(|k| lying(DVec3::Y * (0.5 + f64::from(k)))).collect();
     scene(DVec3::Y * -G, LAW, vec![floor()], spheres)
 }
 
 /// Square layers of 4 × 4, 3 × 3, 2 × 2 and 1 touching spheres, the lowest just between four walls.
-fn pyramid() -> Scene {
+fn pyramid() -> Result<Scene, Trouble> {
     let mut spheres = Vec::new();
     for layer in 0..4_u8 {
         let (side, height) = (4 - layer, f64::from(layer) * 0.5_f64.sqrt());

@@ -1,10 +1,11 @@
 //! Time reversal: what loses nothing finds back to where it began.
 
 use super::bodies::{ELASTIC, EXACT};
+use super::check::Check;
 use super::gas::continued;
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Scene, Simulation, State};
-use crate::scene;
+use super::runner::{Row, Runner, Trouble};
+use crate::physics::{Simulation, State};
+use crate::scene::{self, Scene};
 
 pub(super) const CHECK: Check = Check {
     title: "time reversal",
@@ -25,16 +26,16 @@ const GROWTH: f64 = 12.0;
 /// room flies at 14 m/s.
 const ROUNDING: f64 = (10.0 + 10.0 * 14.0) * f64::EPSILON;
 
-fn measure(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    ["paper-0", "paper-2"].into_iter().map(|name| returned(lab, name)).collect()
+fn measure(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    ["paper-0", "paper-2"].into_iter().map(|name| returned(runner, name)).collect()
 }
 
-fn returned(lab: &Lab, name: &str) -> Result<Row, Trouble> {
-    let opened = scene::open(name).map_err(|error| Trouble::Failed(error.to_string()))?;
-    let forth = Scene { contact: ELASTIC, ..opened.scene };
-    let (mut turned, impacts) = end(lab, &forth)?;
+fn returned(runner: &Runner, name: &str) -> Result<Row, Trouble> {
+    let opened = scene::open(name)?;
+    let forth = opened.scene.changed(|draft| draft.contact = ELASTIC)?;
+    let (mut turned, impacts) = end(runner, &forth)?;
     turned.v.iter_mut().for_each(|v| *v = -*v);
-    let (back, _) = end(lab, &continued(&forth, &turned, ELASTIC))?;
+    let (back, _) = end(runner, &continued(&forth, &turned, ELASTIC)?)?;
     let start = Simulation::new(&forth, EXACT).state();
 
     let allowed = ROUNDING * 2.0 * (impacts + 1.0) * GROWTH;
@@ -42,9 +43,9 @@ fn returned(lab: &Lab, name: &str) -> Result<Row, Trouble> {
 }
 
 /// The state at the end, and the impacts until then.
-fn end(lab: &Lab, scene: &Scene) -> Result<(State, f64), Trouble> {
+fn end(runner: &Runner, scene: &Scene) -> Result<(State, f64), Trouble> {
     let mut run = Simulation::new(scene, EXACT);
-    let state = lab.go(&mut run, UNTIL)?;
+    let state = runner.go(&mut run, UNTIL)?;
     Ok((state, run.tallies().impacts as f64))
 }
 

@@ -3,9 +3,11 @@
 use glam::DVec3;
 
 use super::bodies::{ELASTIC, G, floor, scene, sphere, wall};
+use super::check::Check;
+use super::runner::{Row, Runner, Trouble};
 use super::statistics::slope;
-use super::{Check, Lab, Row, Trouble};
-use crate::physics::{Method, Settings, Simulation};
+use crate::physics::Simulation;
+use crate::scene::{Method, Settings};
 
 pub(super) const DT: Check = Check {
     title: "order in dt",
@@ -37,16 +39,16 @@ const LADDER: [f64; 4] = [0.125, 0.031_25, 0.007_812_5, 0.001_953_125];
 /// 512 frames, each rounded at 5 m, against an error of 1e-2 m: 5e-11 if all round the same way.
 const ROUNDED: f64 = 1e-10;
 
-fn order_in_dt(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let rows = [Method::Paper, Method::Moreau].into_iter().map(|method| drop_ladder(lab, method));
+fn order_in_dt(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let rows = [Method::Paper, Method::Moreau].into_iter().map(|method| drop_ladder(runner, method));
     Ok(rows.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
-fn drop_ladder(lab: &Lab, method: Method) -> Result<Vec<Row>, Trouble> {
+fn drop_ladder(runner: &Runner, method: Method) -> Result<Vec<Row>, Trouble> {
     let (mut points, mut last) = (Vec::new(), f64::NAN);
     for dt in LADDER {
-        let falling = scene(DVec3::Y * -G, ELASTIC, Vec::new(), vec![sphere(DVec3::ZERO, DVec3::ZERO, 0.5)]);
-        let state = lab.go(&mut Simulation::new(&falling, Settings { method, dt, tolerance: 1e-3 }), FALL)?;
+        let falling = scene(DVec3::Y * -G, ELASTIC, Vec::new(), vec![sphere(DVec3::ZERO, DVec3::ZERO, 0.5)])?;
+        let state = runner.go(&mut Simulation::new(&falling, Settings { method, dt, tolerance: 1e-3 }), FALL)?;
         last = (state.x[0].y + 0.5 * G * FALL * FALL).abs();
         points.push((dt.ln(), last.ln()));
     }
@@ -58,13 +60,13 @@ fn drop_ladder(lab: &Lab, method: Method) -> Result<Vec<Row>, Trouble> {
     ])
 }
 
-fn order_in_tolerance(lab: &Lab) -> Result<Vec<Row>, Trouble> {
+fn order_in_tolerance(runner: &Runner) -> Result<Vec<Row>, Trouble> {
     let mut points = Vec::new();
     for tolerance in (1..=9).map(|k| 0.1_f64.powi(k + 1)) {
-        let heights = lab.pick(20, 100);
+        let heights = runner.pick(20, 100);
         let mut sum = 0.0;
         for k in 0..heights {
-            sum += late(lab, 1.0 + f64::from(k) / f64::from(heights), tolerance)?;
+            sum += late(runner, 1.0 + f64::from(k) / f64::from(heights), tolerance)?;
         }
         points.push((tolerance.ln(), sum.ln()));
     }
@@ -73,20 +75,20 @@ fn order_in_tolerance(lab: &Lab) -> Result<Vec<Row>, Trouble> {
 }
 
 /// How far swept is off after a drop from `h` (m) and as much time again, m.
-fn late(lab: &Lab, h: f64, tolerance: f64) -> Result<f64, Trouble> {
+fn late(runner: &Runner, h: f64, tolerance: f64) -> Result<f64, Trouble> {
     let ball = sphere(DVec3::Y * (0.5 + h), DVec3::ZERO, 0.5);
-    let dropped = scene(DVec3::Y * -G, ELASTIC, vec![floor()], vec![ball]);
+    let dropped = scene(DVec3::Y * -G, ELASTIC, vec![floor()], vec![ball])?;
     let settings = Settings { method: Method::Swept, dt: 0.1, tolerance };
     let fall = (2.0 * h / G).sqrt();
     // Elastic: half a fall after the impact it is back at 3/4 of the height.
-    let state = lab.go(&mut Simulation::new(&dropped, settings), 1.5 * fall)?;
+    let state = runner.go(&mut Simulation::new(&dropped, settings), 1.5 * fall)?;
     Ok((state.x[0].y - 0.5 - 0.75 * h).abs())
 }
 
 /// Starts at evenly spread phases of a frame of 0.1 s.
-fn tunnelling(lab: &Lab) -> Result<Vec<Row>, Trouble> {
-    let phases = lab.pick(500, 5000);
-    let missed = |method, v| missed(lab, method, v, phases);
+fn tunnelling(runner: &Runner) -> Result<Vec<Row>, Trouble> {
+    let phases = runner.pick(500, 5000);
+    let missed = |method, v| missed(runner, method, v, phases);
     let paper = |v: f64| {
         let expected = 1.0 - 2.0 * RADIUS / (v * STEP);
         // Counting k of n even phases is off by less than one of them, relative to the probability.
@@ -103,14 +105,14 @@ const RADIUS: f64 = 0.5;
 const STEP: f64 = 0.1;
 
 /// The share of spheres that at `v` (m/s) pass a wall unhindered.
-fn missed(lab: &Lab, method: Method, v: f64, phases: u32) -> Result<f64, Trouble> {
+fn missed(runner: &Runner, method: Method, v: f64, phases: u32) -> Result<f64, Trouble> {
     let target = wall(DVec3::ZERO, DVec3::Y * 4.0, DVec3::Z * 4.0);
     let mut through = 0;
     for phase in 0..phases {
         let x = -10.0 - v * STEP * (f64::from(phase) + 0.5) / f64::from(phases);
         let ball = sphere(DVec3::X * x, DVec3::X * v, RADIUS);
-        let flight = scene(DVec3::ZERO, ELASTIC, vec![target.clone()], vec![ball]);
-        let state = lab.go(&mut Simulation::new(&flight, Settings { method, dt: STEP, tolerance: 1e-3 }), 1.0)?;
+        let flight = scene(DVec3::ZERO, ELASTIC, vec![target.clone()], vec![ball])?;
+        let state = runner.go(&mut Simulation::new(&flight, Settings { method, dt: STEP, tolerance: 1e-3 }), 1.0)?;
         through += u32::from(state.v[0].x > 0.0);
     }
     Ok(f64::from(through) / f64::from(phases))

@@ -1,6 +1,8 @@
 //! The results as text in 80 columns: a line each, then a note on each check.
 
-use super::{Check, Row};
+use super::check::Check;
+use super::runner::Row;
+use crate::format;
 
 /// Columns of every line.
 const WIDTH: usize = 80;
@@ -20,8 +22,12 @@ pub fn head() -> String {
 pub fn rows(number: usize, rows: &[Row]) -> String {
     let of = |(index, row): (usize, &Row)| {
         let number = if index == 0 { number.to_string() } else { String::new() };
-        let figures =
-            [value(row.expected, row.unit), value(row.found, row.unit), error(row.error()), error(row.allowed)];
+        let figures = [
+            value(row.expected, row.unit),
+            value(row.found, row.unit),
+            format::error(row.error()),
+            format::error(row.allowed),
+        ];
         line(&number, &row.what, figures.each_ref().map(String::as_str), if row.passes() { "pass" } else { "FAIL" })
             + "\n"
     };
@@ -55,25 +61,10 @@ fn value(value: f64, unit: &str) -> String {
     if value.is_nan() {
         return "none".into();
     }
-    let mut texts = (0..=DIGITS).rev().map(|digits| rounded(value, unit, digits));
+    let mut texts = (0..=DIGITS)
+        .rev()
+        .map(|digits| format!("{} {unit}", format::significant(value, digits)).trim_end().to_string());
     texts.clone().find(|text| text.chars().count() <= VALUE).or_else(|| texts.next_back()).unwrap_or_default()
-}
-
-/// To so many digits after the first.
-fn rounded(value: f64, unit: &str, digits: usize) -> String {
-    let rounded: f64 = format!("{value:.digits$e}").parse().unwrap_or(value);
-    let plain = rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs());
-    let text = if plain { format!("{rounded}") } else { format!("{rounded:e}") };
-    format!("{text} {unit}").trim_end().to_string()
-}
-
-/// Two digits at most, no more are meant.
-fn error(error: f64) -> String {
-    match error {
-        0.0 => "0".into(),
-        error if error.is_nan() => "-".into(),
-        error => format!("{error:.1e}").replace(".0e", "e"),
-    }
 }
 
 /// The words in lines of [`WIDTH`], each after so many spaces.

@@ -1,0 +1,146 @@
+//! The application as its owner sees it: inputs in, a buffer out.
+
+use ratatui::{buffer::Buffer, layout::Position};
+
+use super::{
+    comparison::Comparison,
+    input::{Effect, Input, Setup},
+    keys::pairs,
+    state::{Open, STALLED, State},
+};
+use crate::{
+    snapshot::Ghost,
+    view::{self, Mode, Pace, Popup, Screen, ViewSettings},
+    worker::{Activity, Notify, Report},
+};
+
+/// The application.
+pub struct App {
+    state: State,
+}
+
+impl App {
+    /// Loads the scene and starts its worker, which calls `notify` when there is [`Input::News`].
+    ///
+    /// # Errors
+    /// If the system has no thread for the worker.
+    pub fn new(setup: Setup, notify: Notify) -> std::io::Result<App> {
+        Ok(App { state: State::begin(setup, notify)? })
+    }
+
+    /// Obeys one input.
+    pub fn handle(&mut self, input: Input) -> Effect {
+        match input {
+            Input::Key(key) => self.state.key(key),
+            Input::Paste(text) => self.state.paste(&text),
+            Input::News => self.news(),
+        }
+    }
+
+    /// Draws the application as it stands over the whole buffer.
+    pub fn draw(&mut self, buffer: &mut Buffer) {
+        self.state.area = buffer.area;
+        self.with_screen(|screen| view::draw(screen, buffer.area, buffer));
+    }
+
+    /// Where the terminal's cursor belongs in the picture last drawn; `None`: nowhere.
+    pub fn cursor(&self) -> Option<Position> {
+        self.with_screen(|screen| view::cursor(screen, self.state.area))
+    }
+
+    /// One line of news in place of the key hints, until the next key.
+    pub fn say(&mut self, message: impl Into<String>) {
+        self.state.say(message);
+    }
+
+    /// The latest report of the run.
+    pub fn report(&self) -> &Report {
+        &self.state.report
+    }
+
+    /// Whether the run has obeyed every key so far and waits for the next, and the exact run beside it likewise.
+    pub fn settled(&self) -> bool {
+        let compared = |comparison: &Comparison| comparison.is_settled(self.state.report.snapshot.t);
+        let obeyed =
+            self.state.report.obeyed == self.state.worker.sent() && self.state.report.activity != Activity::Running;
+        obeyed && self.state.loading.is_none() && self.state.comparison.as_ref().is_none_or(compared)
+    }
+
+    /// The exact run beside the one shown, where it was asked for and has said anything yet.
+    pub fn ghost(&self) -> Option<&Ghost> {
+        self.state.comparison.as_ref().and_then(Comparison::ghost)
+    }
+
+    /// What the user chose to look at.
+    pub fn view_settings(&self) -> &ViewSettings {
+        &self.state.view_settings
+    }
+
+    /// Takes the scene on its way if it has come, and the worker's latest report.
+    fn news(&mut self) -> Effect {
+        match (self.state.look_for_scene(), self.report_news()) {
+            (Some(Effect::DrawNow), Effect::Draw) => Effect::DrawNow,
+            (_, effect) => effect,
+        }
+    }
+
+    fn report_news(&mut self) -> Effect {
+        let before = std::mem::replace(&mut self.state.report, self.state.worker.take());
+        if let Some(said) = &self.state.report.panic {
+            return Effect::Fail(said.clone());
+        }
+        if let Some(comparison) = &mut self.state.comparison {
+            comparison.follow(&before, &self.state.report);
+        }
+        if self.state.report.obeyed == self.state.worker.sent() {
+            self.state.running = self.state.report.activity == Activity::Running;
+            self.state.has_target &= self.state.running;
+        }
+        if self.state.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
+            self.state.say(STALLED);
+        }
+        if self.state.report.obeyed == before.obeyed && self.state.report.activity == before.activity {
+            Effect::Draw
+        } else {
+            Effect::DrawNow
+        }
+    }
+
+    /// The screen as it stands, lent to `show`.
+    fn with_screen<T>(&self, show: impl FnOnce(&Screen) -> T) -> T {
+        let (help, hints) = (pairs(&self.state.help), pairs(&self.state.hints));
+        let entries: Vec<(&str, &str)> = match &self.state.open {
+            Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
+            _ => Vec::new(),
+        };
+        show(&Screen {
+            snapshot: &self.state.report.snapshot,
+            pace: pace(&self.state.report),
+            ticks: &self.state.report.ticks,
+            comparison: self.state.comparison.as_ref().map(Comparison::shown),
+            view_settings: &self.state.view_settings,
+            popup: match &self.state.open {
+                Open::Nothing => Popup::None,
+                Open::Prompt(text) => Popup::Prompt { text },
+                Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
+                Open::Scenes(list) => Popup::Scenes {
+                    filter: list.filter(),
+                    filtering: list.filtering(),
+                    entries: &entries,
+                    cursor: list.cursor(),
+                },
+            },
+            message: self.state.message.as_deref(),
+            hints: &hints,
+        })
+    }
+}
+
+fn pace(report: &Report) -> Pace {
+    let mode = match report.activity {
+        Activity::Running => Mode::Run,
+        Activity::Paused => Mode::Pause,
+        Activity::Stalled => Mode::Stalled,
+    };
+    Pace { mode, wanted: report.wanted, reached: report.reached }
+}

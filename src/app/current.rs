@@ -1,0 +1,44 @@
+//! The scene that is shown.
+
+use std::{ffi::OsStr, path::PathBuf, sync::Arc};
+
+use crate::{
+    printable,
+    scene::{Opened, Scene, Settings},
+    snapshot::Stage,
+    worker::Job,
+};
+
+/// The scene under way, as it was opened.
+#[derive(Debug)]
+pub(super) struct Current {
+    /// Built-in name or path, as it is shown.
+    pub(super) name: String,
+    /// Its file, unless it is built in.
+    pub(super) path: Option<PathBuf>,
+    pub(super) scene: Arc<Scene>,
+    /// What its snapshots show as constant.
+    pub(super) stage: Arc<Stage>,
+}
+
+impl Current {
+    pub(super) fn of(opened: Opened) -> Current {
+        let Opened { key, path, scene } = opened;
+        let stage = Arc::new(Stage::of(&key, &scene));
+        Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene), stage }
+    }
+
+    /// What [`crate::scene::open`] takes to open this scene again.
+    pub(super) fn source(&self) -> &OsStr {
+        self.path.as_ref().map_or(OsStr::new(&self.name), |path| path.as_os_str())
+    }
+
+    pub(super) fn job(&self, settings: Settings) -> Job {
+        Job { stage: Arc::clone(&self.stage), scene: Arc::clone(&self.scene), settings }
+    }
+}
+
+/// How a scene is called on the screen: by its path, as far as it can be printed, or its built-in name.
+fn name_of(key: &str, path: Option<&PathBuf>) -> String {
+    path.map_or_else(|| key.to_owned(), |path| printable::name(path.as_os_str()))
+}

@@ -1,0 +1,53 @@
+//! What the application starts with, what reaches it, and what it asks for in turn.
+
+use super::keys::Key;
+use crate::{
+    scene::{Opened, Settings},
+    view::{Colors, Marker},
+};
+
+/// What the application starts with.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The first scene.
+    pub opened: Opened,
+    /// What to solve it with.
+    pub settings: Settings,
+    /// Wait at t = 0 instead of running.
+    pub paused: bool,
+    /// Dots or characters.
+    pub marker: Marker,
+    /// Depth of colour.
+    pub colors: Colors,
+}
+
+/// What reaches the application from outside.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Input {
+    /// A key was pressed.
+    Key(Key),
+    /// Text was pasted: taken where text is typed, and nowhere else.
+    Paste(String),
+    /// The worker has called `notify`.
+    News,
+}
+
+/// What an input asks of the program that owns the screen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[must_use]
+pub enum Effect {
+    /// Nothing.
+    Nothing,
+    /// Draw when it is time for the next picture.
+    Draw,
+    /// Draw at once: the user waits for an answer.
+    DrawNow,
+    /// Draw everything again, whatever is on the screen.
+    Repaint,
+    /// Give the terminal back to the shell for a while.
+    Suspend,
+    /// End.
+    Quit,
+    /// End: the simulation's thread has panicked, with this text.
+    Fail(String),
+}

@@ -1,0 +1,186 @@
+//! What the application holds, and the steps that keys and news are made of.
+
+use std::{path::PathBuf, sync::Arc};
+
+use ratatui::layout::Rect;
+
+use super::{
+    comparison::Comparison,
+    current::Current,
+    input::Setup,
+    keys::{help_rows, hints},
+    loading::Loading,
+    scene_list::{self, SceneList},
+    view_settings,
+};
+use crate::{
+    printable,
+    scene::{self, Settings},
+    view::{Colors, Marker, ViewSettings},
+    worker::{Activity, Command, Ending, Errands, Notify, Report, Worker},
+};
+
+/// What to do where a run cannot go on; why it cannot is on the screen already.
+pub(super) const STALLED: &str = "The run cannot go on from here: m changes the method, r restarts.";
+
+/// What is open over the views.
+#[derive(Debug)]
+pub(super) enum Open {
+    Nothing,
+    Help { scroll: usize },
+    Scenes(SceneList),
+    Prompt(String),
+}
+
+/// What the application holds.
+pub(super) struct State {
+    pub(super) worker: Worker,
+    pub(super) report: Arc<Report>,
+    pub(super) current: Current,
+    /// The file the program was started with, in the list beside the built-in scenes.
+    pub(super) given: Option<(scene_list::Entry, PathBuf)>,
+    pub(super) settings: Settings,
+    pub(super) speed: f64,
+    /// Whether the run was told to run; the worker's latest report may not know yet.
+    pub(super) running: bool,
+    /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
+    pub(super) has_target: bool,
+    /// The exact run beside it, if it was asked for.
+    pub(super) comparison: Option<Comparison>,
+    /// The exact run shown before, while its thread ends.
+    pub(super) ending: Option<Ending>,
+    /// The scene that comes next, if one is being opened, and the channel that it arrives on.
+    pub(super) loading: Option<Loading>,
+    pub(super) errands: Option<Errands>,
+    pub(super) notify: Notify,
+    pub(super) view_settings: ViewSettings,
+    pub(super) open: Open,
+    pub(super) message: Option<String>,
+    /// Size of the last picture.
+    pub(super) area: Rect,
+    pub(super) help: Vec<(String, &'static str)>,
+    pub(super) hints: Vec<(String, &'static str)>,
+}
+
+impl State {
+    /// Starts the worker of the first scene, which calls `notify` when it has a report.
+    ///
+    /// # Errors
+    /// If the system has no thread for the worker.
+    pub(super) fn begin(setup: Setup, notify: Notify) -> std::io::Result<State> {
+        let current = Current::of(setup.opened);
+        let worker = Worker::start(current.job(setup.settings), 1.0, Arc::clone(&notify))?;
+        let report = worker.take();
+        let about = current.scene.about.clone();
+        let entry = scene_list::Entry { name: current.name.clone(), about };
+        let given = current.path.clone().map(|path| (entry, path));
+        let mut state = State {
+            worker,
+            report,
+            current,
+            given,
+            settings: setup.settings,
+            speed: 1.0,
+            running: false,
+            has_target: false,
+            comparison: None,
+            ending: None,
+            loading: None,
+            errands: None,
+            notify,
+            view_settings: first_view_settings(setup.marker, setup.colors),
+            open: Open::Nothing,
+            message: None,
+            area: Rect::default(),
+            help: help_rows(),
+            hints: hints(),
+        };
+        state.warn();
+        if !setup.paused {
+            state.run(true);
+        }
+        Ok(state)
+    }
+
+    /// One line of news in place of the key hints, until the next key.
+    pub(super) fn say(&mut self, message: impl Into<String>) {
+        self.message = Some(message.into());
+    }
+
+    /// Lets the run go on and on, or pauses it.
+    pub(super) fn run(&mut self, on: bool) {
+        (self.running, self.has_target) = (on, false);
+        self.worker.send(Command::Run(on));
+    }
+
+    /// Runs to where a command leads, not on and on.
+    pub(super) fn head_for(&mut self, command: Command, on: bool) {
+        (self.running, self.has_target) = (on, on);
+        self.worker.send(command);
+    }
+
+    /// A stalled run can't go on: says why, and whether that was so.
+    pub(super) fn say_if_stalled(&mut self) -> bool {
+        let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
+        if stalled {
+            self.say(STALLED);
+        }
+        stalled
+    }
+
+    /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
+    pub(super) fn show(&mut self, current: Current, settings: Settings) {
+        let running = self.running;
+        self.current = current;
+        self.settings = settings;
+        self.worker.send(Command::Load(self.current.job(settings)));
+        self.run(running);
+        view_settings::whole_scene(&mut self.view_settings);
+        self.view_settings.selected = None;
+        if self.comparison.is_some() {
+            self.compare();
+        }
+    }
+
+    /// Starts the exact run beside this one.
+    pub(super) fn compare(&mut self) {
+        let before = self.comparison.take().map(Comparison::end).or(self.ending.take());
+        match Comparison::start(&self.current, &self.report, before, Arc::clone(&self.notify)) {
+            Ok(comparison) => self.comparison = Some(comparison),
+            Err(error) => self.say(format!("The exact run cannot start: {}.", printable::cause(&error))),
+        }
+    }
+
+    /// Says what of the scene is allowed but hardly meant.
+    pub(super) fn warn(&mut self) {
+        let warnings = scene::warnings(&self.current.scene, self.settings, self.current.scene.duration);
+        if !warnings.is_empty() {
+            self.say(format!("Note: {}.", warnings.join("; ")));
+        }
+    }
+
+    pub(super) fn solve_with(&mut self, settings: Result<Settings, String>) {
+        match settings {
+            Ok(settings) => {
+                self.settings = settings;
+                self.worker.send(Command::Settings(settings));
+            }
+            Err(said) => self.say(said),
+        }
+    }
+
+    pub(super) fn go_at(&mut self, speed: Result<f64, String>) {
+        match speed {
+            Ok(speed) => {
+                self.speed = speed;
+                self.worker.send(Command::Speed(speed));
+            }
+            Err(said) => self.say(said),
+        }
+    }
+}
+
+/// Both views, the whole scene, nothing selected.
+fn first_view_settings(marker: Marker, colors: Colors) -> ViewSettings {
+    ViewSettings { marker, colors, ..ViewSettings::default() }
+}

@@ -1,0 +1,157 @@
+//! What the user chose to look at: moves of the camera, selection, overlays.
+
+use glam::DVec3;
+
+use super::action::Direction;
+use crate::{
+    geometry::Bounds,
+    view::{Overlays, ViewSettings, Views},
+};
+
+/// A press of a pan key moves by this part of the picture.
+const PAN: f64 = 0.1;
+
+/// A press of a zoom key magnifies by this.
+pub(super) const ZOOM: f64 = 1.25;
+
+/// Smallest and largest zoom: the scene as a dot, a sphere of a millimetre in a hall across the screen.
+const ZOOMS: (f64, f64) = (1.0 / 64.0, 65536.0);
+
+/// The sets of overlays in the order of the key.
+const OVERLAYS: [(Overlays, &str); 6] = [
+    (overlays(false, false, false, false), "none"),
+    (overlays(true, false, false, false), "contacts"),
+    (overlays(true, true, false, false), "contacts and normals"),
+    (overlays(false, false, true, false), "velocities"),
+    (overlays(false, false, false, true), "ids"),
+    (overlays(true, true, true, true), "contacts, normals, velocities and ids"),
+];
+
+const fn overlays(contacts: bool, normals: bool, velocities: bool, ids: bool) -> Overlays {
+    Overlays { contacts, normals, velocities, ids }
+}
+
+/// Goes to the next set of overlays and says which.
+pub(super) fn next_overlays(settings: &mut ViewSettings) -> String {
+    let at = OVERLAYS.iter().position(|(set, _)| *set == settings.overlays).unwrap_or(0);
+    let (set, name) = OVERLAYS[(at + 1) % OVERLAYS.len()];
+    settings.overlays = set;
+    format!("Overlays: {name}.")
+}
+
+/// Both, side, top, and round again.
+pub(super) fn next_views(settings: &mut ViewSettings) {
+    settings.views = match settings.views {
+        Views::Both => Views::Side,
+        Views::Side => Views::Top,
+        Views::Top => Views::Both,
+    };
+}
+
+/// Magnifies by `factor`; false if it is already at the end.
+pub(super) fn zoom(settings: &mut ViewSettings, factor: f64) -> bool {
+    let next = (settings.zoom * factor).clamp(ZOOMS.0, ZOOMS.1);
+    let changed = next != settings.zoom;
+    settings.zoom = next;
+    changed
+}
+
+/// Moves the picture by a part of `span`, which is what it shows, m.
+pub(super) fn pan(settings: &mut ViewSettings, direction: Direction, span: DVec3) {
+    let step = span * PAN;
+    let down = |sign: f64| match settings.views {
+        Views::Side => DVec3::new(0.0, -sign, 0.0),
+        Views::Top => DVec3::new(0.0, 0.0, sign),
+        Views::Both => DVec3::new(0.0, -sign, sign),
+    };
+    settings.pan += step
+        * match direction {
+            Direction::Left => -DVec3::X,
+            Direction::Right => DVec3::X,
+            Direction::Down => down(1.0),
+            Direction::Up => down(-1.0),
+        };
+}
+
+/// Stops following: from the followed sphere's place `x`, m, the camera over `scene`'s view box goes on alone.
+pub(super) fn let_go(settings: &mut ViewSettings, scene: &Bounds, x: Option<DVec3>) {
+    if let Some(x) = x.filter(|_| settings.follow) {
+        settings.pan = x - (scene.min + scene.max) * 0.5;
+    }
+    settings.follow = false;
+}
+
+/// The whole scene, as at first; what is selected stays so.
+pub(super) fn whole_scene(settings: &mut ViewSettings) {
+    settings.zoom = 1.0;
+    settings.pan = DVec3::ZERO;
+    settings.follow = false;
+}
+
+/// Selects the next sphere of `count`, or the one before; after the last comes none.
+pub(super) fn select(settings: &mut ViewSettings, count: usize, forward: bool) {
+    let at = settings.selected.map_or(0, |i| i.min(count) + 1); // 0: none
+    let next = if forward { at + 1 } else { at + count } % (count + 1);
+    settings.selected = next.checked_sub(1);
+    settings.follow &= settings.selected.is_some();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::{Colors, Marker};
+
+    fn settings() -> ViewSettings {
+        ViewSettings {
+            views: Views::Both,
+            zoom: 1.0,
+            pan: DVec3::ZERO,
+            follow: false,
+            selected: None,
+            overlays: Overlays::default(),
+            inspector: false,
+            ghost: false,
+            marker: Marker::Ascii,
+            colors: Colors::Never,
+        }
+    }
+
+    #[test]
+    fn selecting_goes_round_through_none_both_ways() {
+        let mut settings = settings();
+        let forward: Vec<_> = (0..4).map(|_| (select(&mut settings, 2, true), settings.selected).1).collect();
+        assert_eq!(forward, [Some(0), Some(1), None, Some(0)]);
+        let back: Vec<_> = (0..4).map(|_| (select(&mut settings, 2, false), settings.selected).1).collect();
+        assert_eq!(back, [None, Some(1), Some(0), None]);
+        select(&mut settings, 0, true);
+        assert_eq!(settings.selected, None, "a scene without spheres");
+    }
+
+    #[test]
+    fn down_is_down_the_screen_in_every_view_shown() {
+        let span = DVec3::new(10.0, 20.0, 30.0);
+        let mut settings = settings();
+        pan(&mut settings, Direction::Down, span);
+        assert_eq!(settings.pan, DVec3::new(0.0, -2.0, 3.0));
+        settings.views = Views::Top;
+        pan(&mut settings, Direction::Up, span);
+        assert_eq!(settings.pan, DVec3::new(0.0, -2.0, 0.0));
+    }
+
+    #[test]
+    fn a_camera_that_lets_go_of_a_sphere_stays_where_it_is() {
+        let scene = Bounds { min: DVec3::ZERO, max: DVec3::splat(10.0) };
+        let mut settings = ViewSettings { follow: true, selected: Some(0), ..settings() };
+        let_go(&mut settings, &scene, Some(DVec3::new(8.0, 5.0, 5.0)));
+        assert_eq!((settings.pan, settings.follow), (DVec3::new(3.0, 0.0, 0.0), false));
+    }
+
+    #[test]
+    fn zoom_stops_at_its_ends() {
+        let mut settings = settings();
+        while zoom(&mut settings, ZOOM) {}
+        assert_eq!(settings.zoom, ZOOMS.1);
+        while zoom(&mut settings, 1.0 / ZOOM) {}
+        assert_eq!(settings.zoom, ZOOMS.0);
+    }
+}

@@ -1,0 +1,19 @@
+//! Rows → CSV or JSON lines, to any writer; and rows of the trade read back.
+//!
+//! Numbers are written with the fewest digits that read back to the same `f64`: `20.0`, `1e300`, `5e-324`, `-0.0`.
+//!
+//! | file | owns |
+//! |---|---|
+//! | `table` | what a row is, and a table of them under way |
+//! | `rows` | a state, an event |
+//! | `trade`, `note` | a setting measured on a scene, and reasons to doubt its figures |
+
+mod note;
+mod rows;
+mod table;
+mod trade;
+
+pub use note::Note;
+pub use rows::{EventRow, StateRow};
+pub use table::{Format, Row, Table};
+pub use trade::{TradeRow, read_trade};

@@ -1,0 +1,69 @@
+//! A run at the end of one frame.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::stage::Stage;
+use crate::audit::Alarm;
+use crate::physics::{Contact, Probe, Simulation, Stall, State, Tallies};
+
+/// A run at the end of one frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// What does not change during the run.
+    pub stage: Arc<Stage>,
+    /// Time, s.
+    pub t: f64,
+    /// Real length of the frame that ended here, s.
+    pub step: f64,
+    /// Centres, m.
+    pub x: Vec<DVec3>,
+    /// Velocities, m/s.
+    pub v: Vec<DVec3>,
+    /// Σ ½ m v² − m g·x − F·x, J.
+    pub energy: f64,
+    /// Σ ½ m v² − m g·x − F·x at t = 0, J.
+    pub initial_energy: f64,
+    /// Every contact of the frame that ended here.
+    pub contacts: Vec<Contact>,
+    /// What its search for the collision time did, trial step by trial step; empty if it needed none.
+    pub probes: Vec<Probe>,
+    /// Counted since t = 0.
+    pub tallies: Tallies,
+    /// Name of the method.
+    pub method: &'static str,
+    /// Longest frame, s.
+    pub dt: f64,
+    /// Intersection tolerance, dimensionless.
+    pub tolerance: f64,
+    /// Why the run cannot go on, if it cannot: a full sentence.
+    pub stall: Option<String>,
+    /// What the watch over the run has found wrong since its start.
+    pub alarm: Alarm,
+}
+
+impl Snapshot {
+    /// The run as it stands at the end of the last complete frame; `stall` if it cannot go on.
+    pub fn of(stage: &Arc<Stage>, sim: &Simulation, stall: Option<&Stall>) -> Snapshot {
+        let State { t, x, v } = sim.state();
+        let settings = sim.settings();
+        Snapshot {
+            stage: Arc::clone(stage),
+            t,
+            step: sim.step(),
+            x,
+            v,
+            energy: sim.energy(),
+            initial_energy: sim.initial_energy(),
+            contacts: sim.contacts().to_vec(),
+            probes: sim.probes().to_vec(),
+            tallies: sim.tallies(),
+            method: settings.method.name(),
+            dt: settings.dt,
+            tolerance: settings.tolerance,
+            stall: stall.map(|stall| stall.reason.clone()),
+            alarm: Alarm::default(),
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! What to run on a terminal, and how that can end.
+
+use std::{fmt, io};
+
+use crate::{
+    printable,
+    scene::{Opened, Settings},
+    view::{Colors, Marker},
+};
+
+/// What to run, and how to show it.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The scene to begin with.
+    pub opened: Opened,
+    /// What to solve it with.
+    pub settings: Settings,
+    /// What to say at first, if anything.
+    pub message: Option<String>,
+    /// Wait at t = 0 instead of running.
+    pub paused: bool,
+    /// Dots or characters; `None`: as the locale says.
+    pub marker: Option<Marker>,
+    /// Depth of colour; `None`: as the environment says.
+    pub color: Option<Colors>,
+}
+
+/// How the application ended, with the terminal as it was before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The user quit.
+    Quit,
+    /// By this signal; the terminal's own end counts as SIGHUP. The exit code is 128 + it.
+    Signal(i32),
+}
+
+/// Why it could not run, or not on; the terminal is as it was before.
+#[derive(Debug)]
+pub enum Error {
+    /// Standard output is no terminal: wrong usage.
+    NoTerminal,
+    /// The terminal or the system failed us.
+    Io(io::Error),
+    /// A thread panicked, with this text.
+    Panic(String),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Error::NoTerminal => {
+                write!(f, "standard output is not a terminal; use carom run, carom render or --text instead")
+            }
+            Error::Io(error) => write!(f, "the terminal cannot be used: {}", printable::cause(error)),
+            Error::Panic(said) => write!(f, "carom has made a mistake and cannot go on: {said}"),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl From<io::Error> for Error {
+    fn from(error: io::Error) -> Error {
+        Error::Io(error)
+    }
+}

@@ -1,0 +1,178 @@
+//! Everything that a frame shows: what a caller fills in, and every part of the view reads.
+
+use glam::DVec3;
+
+use crate::snapshot::{Ghost, Snapshot, Ticks, Trade};
+
+/// Everything one frame shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Screen<'a> {
+    /// The run at the end of the frame shown (its `stage` tells what is constant).
+    pub snapshot: &'a Snapshot,
+    /// Pace of the run.
+    pub pace: Pace,
+    /// Collisions so far.
+    pub ticks: &'a Ticks,
+    /// The exact run beside this one, where it was asked for.
+    pub comparison: Option<Comparison<'a>>,
+    /// What the user chose to look at, and how.
+    pub view_settings: &'a ViewSettings,
+    /// What lies over the views.
+    pub popup: Popup<'a>,
+    /// One line of news in place of the key hints.
+    pub message: Option<&'a str>,
+    /// Key hints of the last row, (keys, what they do), the most useful first: as many as fit are shown.
+    pub hints: &'a [(&'a str, &'a str)],
+}
+
+/// The exact run beside the one shown, and what its accuracy costs.
+#[derive(Debug, Clone, Copy)]
+pub struct Comparison<'a> {
+    /// Where the exact run is, once it has reached a moment that was shown.
+    pub ghost: Option<&'a Ghost>,
+    /// Errors and costs over time.
+    pub trade: &'a Trade,
+}
+
+/// Whether and how fast the run goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    /// The word of the status line.
+    pub mode: Mode,
+    /// Simulated seconds per second asked for.
+    pub wanted: f64,
+    /// Simulated seconds per second reached, once measured.
+    pub reached: Option<f64>,
+}
+
+/// The word of the status line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// Running.
+    Run,
+    /// Paused at the newest frame.
+    Pause,
+    /// The run cannot go on.
+    Stalled,
+}
+
+/// What the user chose to look at, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewSettings {
+    /// Which projections.
+    pub views: Views,
+    /// Zoom factor over the scene's own view box; 1 shows the whole scene.
+    pub zoom: f64,
+    /// Shift of the centre of view from the centre of the scene's view box, m.
+    pub pan: DVec3,
+    /// Keep the selected sphere in the centre.
+    pub follow: bool,
+    /// The selected sphere.
+    pub selected: Option<usize>,
+    /// Which overlays are drawn.
+    pub overlays: Overlays,
+    /// Whether the inspector was asked for; wide screens always show it.
+    pub inspector: bool,
+    /// Whether the exact run is shown beside this one.
+    pub ghost: bool,
+    /// Dots or characters.
+    pub marker: Marker,
+    /// Depth of colour.
+    pub colors: Colors,
+}
+
+impl Default for ViewSettings {
+    /// The whole scene in both views, contacts marked, in braille dots and the terminal's own colours.
+    fn default() -> ViewSettings {
+        ViewSettings {
+            views: Views::Both,
+            zoom: 1.0,
+            pan: DVec3::ZERO,
+            follow: false,
+            selected: None,
+            overlays: Overlays { contacts: true, ..Overlays::default() },
+            inspector: false,
+            ghost: false,
+            marker: Marker::Braille,
+            colors: Colors::Ansi16,
+        }
+    }
+}
+
+/// Which projections are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Views {
+    /// Side and top-down, sharing the x axis.
+    Both,
+    /// Side: x right, y up.
+    Side,
+    /// Top-down: x right, z down the screen.
+    Top,
+}
+
+/// What is drawn over the spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Overlays {
+    /// Contact points.
+    pub contacts: bool,
+    /// Contact normals.
+    pub normals: bool,
+    /// Velocity arrows.
+    pub velocities: bool,
+    /// Sphere numbers.
+    pub ids: bool,
+}
+
+/// How dots become characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Marker {
+    /// 2×4 dots a cell.
+    Braille,
+    /// 2×2 quadrant blocks a cell.
+    Block,
+    /// Plain ASCII.
+    Ascii,
+}
+
+/// Depth of colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Colors {
+    /// None; bold and reverse stay.
+    Never,
+    /// The terminal's own 16.
+    Ansi16,
+    /// The 256-colour cube.
+    Ansi256,
+    /// 24 bits.
+    Rgb,
+}
+
+/// What lies over the views.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Popup<'a> {
+    /// Nothing.
+    None,
+    /// The key table: (keys, what they do), scrolled down by so many rows.
+    Help {
+        /// Rows of the table.
+        rows: &'a [(&'a str, &'a str)],
+        /// Rows scrolled down.
+        scroll: usize,
+    },
+    /// The scene list.
+    Scenes {
+        /// What was typed after `/`; `filtering` tells whether it is being typed.
+        filter: &'a str,
+        /// Whether the filter has the keyboard.
+        filtering: bool,
+        /// The scenes that pass the filter: (name, about).
+        entries: &'a [(&'a str, &'a str)],
+        /// The one under the cursor.
+        cursor: usize,
+    },
+    /// The `:` line, as typed so far, with the byte offset of its cursor.
+    Prompt {
+        /// Text after the colon.
+        text: &'a str,
+    },
+}

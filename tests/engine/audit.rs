@@ -1,0 +1,208 @@
+//! Is the judge just? It finds nothing in runs that are right, and each thing that is made wrong on purpose.
+
+use std::process::Command;
+
+use crate::support::{ELASTIC, G, PAPER_LAW, changed, gas, paper, paper_scene, room, scene, sphere, wall};
+use carom::audit::{Bodies, Fault, Frame, Judge, Watch};
+use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
+use carom::scene::ContactLaw;
+use glam::{DVec3, dvec3};
+
+const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
+
+/// What the judge finds in a run until `until` (s).
+fn faults(scene: &Scene, settings: Settings, until: f64) -> Vec<String> {
+    let mut run = Simulation::new(scene, settings);
+    run.record_events(true);
+    let mut judge = Judge::of(&run);
+    while run.time() < until {
+        if run.advance(Until::Frame, u64::MAX) != Progress::Reached {
+            break; // what `paper` can't solve is no fault of what it has done
+        }
+        let events = run.take_events();
+        judge.frame(&run, &events);
+    }
+    judge.findings().rows().iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn runs_that_are_right_have_no_findings() {
+    for k in 0..4 {
+        for method in [Method::Exact, Method::Swept] {
+            let found = faults(&paper_scene(k), Settings { method, ..EXACT }, 20.0);
+            assert!(found.is_empty(), "paper-{k} by {method:?}: {found:#?}");
+        }
+        if k < 3 {
+            let found = faults(&paper_scene(k), paper(0.01, 1e-3), 20.0);
+            assert!(found.is_empty(), "paper-{k}: {found:#?}");
+        }
+    }
+    for method in [Method::Exact, Method::Swept] {
+        let found = faults(&gas(125, 5, 1.0), Settings { method, tolerance: 1e-9, ..EXACT }, 1.0);
+        assert!(found.is_empty(), "gas by {method:?}: {found:#?}");
+    }
+}
+
+/// A ball that falls on a floor with some way along it, just before and just after it bounces.
+struct Bounce {
+    run: Simulation,
+    before: State,
+    after: State,
+    row: Contact,
+}
+
+/// A floor, a ball above it, gravity, and the paper's law.
+fn bounce(law: ContactLaw) -> Bounce {
+    let floor = wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::Z * -20.0);
+    let mut run = Simulation::new(&scene(G, law, vec![floor], vec![sphere(DVec3::Y, DVec3::X, 0.5)]), EXACT);
+    run.record_events(true);
+    let before = run.state();
+    assert_eq!(run.advance(Until::Frame, u64::MAX), Progress::Reached);
+    let row = run.take_events()[0];
+    assert_eq!(row.class, Class::Collide);
+    Bounce { before, after: run.state(), row, run }
+}
+
+impl Bounce {
+    /// What the judge finds if the frame has left this state and this contact.
+    fn found(&self, state: &State, rows: &[Contact]) -> Vec<Fault> {
+        let mut judge = Judge::new(self.run.model(), EXACT, &self.before);
+        judge.look(self.run.model(), &Frame { state, contacts: rows, events: rows });
+        judge.findings().rows().iter().map(|finding| finding.fault).collect()
+    }
+
+    /// The same with a changed state.
+    fn with(&self, change: impl Fn(&mut State)) -> Vec<Fault> {
+        let mut state = self.after.clone();
+        change(&mut state);
+        self.found(&state, &[self.row])
+    }
+
+    /// The same with a changed contact.
+    fn told(&self, change: impl Fn(&mut Contact)) -> Vec<Fault> {
+        let mut row = self.row;
+        change(&mut row);
+        self.found(&self.after, &[row])
+    }
+}
+
+#[test]
+fn what_is_made_wrong_is_found() {
+    let bounce = bounce(PAPER_LAW);
+    assert_eq!(bounce.found(&bounce.after, &[bounce.row]), []);
+    // 1e-11 m is 2e-11 r: twenty times what a flight may overlap
+    assert!(bounce.with(|state| state.x[0].y -= 1e-11).contains(&Fault::Overlap));
+    assert!(bounce.with(|state| state.x[0].y -= 1.0).contains(&Fault::Passage));
+    assert!(bounce.with(|state| state.x[0].x = f64::NAN).contains(&Fault::NotANumber));
+    assert!(bounce.with(|state| state.v[0] *= 2.0).contains(&Fault::Energy));
+    // a twin law without the rest speed below which the law stops things silently
+    assert!(bounce.told(|row| row.impulse = -row.impulse).contains(&Fault::Pull));
+    assert!(bounce.told(|row| row.impulse *= 1.001).contains(&Fault::Impulse));
+    assert!(bounce.told(|row| row.separation_speed *= 1.001).contains(&Fault::Jump));
+    assert!(bounce.told(|row| row.normal *= 1.001).contains(&Fault::Normal));
+    assert!(bounce.told(|row| row.normal = -row.normal).contains(&Fault::Normal));
+    assert!(bounce.told(|row| row.normal = dvec3(0.6, 0.8, 0.0)).contains(&Fault::Normal));
+    assert!(bounce.told(|row| row.point.x += 1e-3).contains(&Fault::Point));
+    assert!(bounce.told(|row| row.approach_speed *= -1.0).contains(&Fault::Approach));
+}
+
+#[test]
+fn velocities_that_nothing_explains_are_found() {
+    let bounce = bounce(ContactLaw { rest_speed: 0.0, ..PAPER_LAW });
+    assert_eq!(bounce.found(&bounce.after, &[bounce.row]), []);
+    // friction taken twice, told once; then told twice
+    assert!(bounce.with(|state| state.v[0].x *= 0.99).contains(&Fault::Velocity));
+    assert!(bounce.found(&bounce.after, &[bounce.row, bounce.row]).contains(&Fault::Friction));
+    assert!(bounce.with(|state| state.v[0].z += 1e-6).contains(&Fault::Velocity));
+    assert!(bounce.with(|state| state.v[0].y *= 0.999).contains(&Fault::Velocity));
+    assert!(bounce.with(|state| state.v[0].y *= 0.999).contains(&Fault::Loss));
+    assert!(bounce.found(&bounce.after, &[]).contains(&Fault::Loss), "an impact that is not told");
+    let early = |row: &mut Contact| row.approach_speed *= 1.01;
+    assert!(bounce.told(early).contains(&Fault::Approach));
+}
+
+#[test]
+fn what_does_not_rest_is_found() {
+    let bounce = bounce(PAPER_LAW);
+    let rest = Contact { class: Class::Rest, approach_speed: 0.0, separation_speed: 0.0, impulse: 0.0, ..bounce.row };
+    assert!(bounce.found(&bounce.after, &[rest]).contains(&Fault::RestSpeed));
+    let mut state = bounce.after.clone();
+    (state.x[0].y, state.v[0]) = (state.x[0].y + 1e-6, DVec3::ZERO);
+    assert!(bounce.found(&state, &[rest]).contains(&Fault::RestGap));
+}
+
+#[test]
+fn momentum_that_nothing_gives_is_found() {
+    let pair = vec![sphere(DVec3::ZERO, DVec3::X, 0.5), sphere(DVec3::X * 1.5, DVec3::ZERO, 0.5)];
+    let mut run = Simulation::new(&scene(DVec3::ZERO, ELASTIC, vec![], pair), EXACT);
+    run.record_events(true);
+    let mut judge = Judge::of(&run);
+    while run.tallies().impacts == 0 {
+        assert_eq!(run.advance(Until::Frame, u64::MAX), Progress::Reached);
+        judge.frame(&run, &[]);
+    }
+    assert!(judge.findings().is_empty(), "{:?}", judge.findings());
+    // both velocities lose a millionth: no force does that
+    let mut state = run.state();
+    state.t += 1.0;
+    state.x.iter_mut().zip(&state.v).for_each(|(x, v)| *x += *v);
+    state.v.iter_mut().for_each(|v| *v *= 1.0 - 1e-6);
+    let row = Contact { class: Class::Rest, time: state.t - 0.5, ..run.contacts()[0] };
+    judge.look(run.model(), &Frame { state: &state, contacts: &[row], events: &[] });
+    let faults: Vec<Fault> = judge.findings().rows().iter().map(|finding| finding.fault).collect();
+    assert!(faults.contains(&Fault::Momentum), "{faults:?}");
+}
+
+#[test]
+fn the_watch_alarms_with_time_and_bodies() {
+    let floor = wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::Z * -20.0);
+    let run = Simulation::new(&scene(G, PAPER_LAW, vec![floor], vec![sphere(DVec3::Y, DVec3::X, 0.5)]), EXACT);
+    let mut watch = Watch::new(&run);
+    let state = |t: f64, y: f64, v: DVec3| State { t, x: vec![dvec3(0.0, y, 0.0)], v: vec![v] };
+    watch.state(run.model(), &state(0.1, 0.6, DVec3::ZERO), 0);
+    assert!(watch.alarm().is_silent(), "{:?}", watch.alarm());
+    watch.state(run.model(), &state(0.2, 0.4, DVec3::ZERO), 0);
+    let overlap = watch.alarm().overlap.expect("a fifth of the radius is an overlap");
+    assert_eq!((overlap.time, overlap.bodies), (0.2, Bodies::Wall(0, 0)));
+    assert!((overlap.value - 0.2).abs() < 1e-12 && watch.alarm().energy.is_none());
+    watch.state(run.model(), &state(0.3, 0.5, DVec3::X * 9.0), 0);
+    assert_eq!(watch.alarm().energy.map(|energy| energy.time), Some(0.3));
+    assert_eq!(watch.alarm().words(), "overlap,energy");
+}
+
+#[test]
+fn spheres_that_overlap_far_from_the_first_are_found_among_many() {
+    let crowd = changed(&gas(1000, 3, 0.0), |draft| draft.walls = room(DVec3::splat(-10.0), DVec3::splat(10.0)));
+    let run = Simulation::new(&crowd, EXACT);
+    let mut state = run.state();
+    state.x[700] = state.x[999] + dvec3(0.19, 0.0, 0.0);
+    let mut judge = Judge::new(run.model(), EXACT, &run.state());
+    judge.state(run.model(), &state, &[]);
+    let found = judge.findings().rows();
+    assert!(found.iter().any(|row| row.fault == Fault::Overlap && row.bodies == Bodies::Pair(700, 999)), "{found:?}");
+    assert!(run.contacts().iter().all(|row| row.kind == Kind::Wall), "nothing else touches");
+}
+
+/// Exit code, standard output and standard error of `carom run` with these words.
+fn carom(words: &[&str]) -> (Option<i32>, String, String) {
+    let done = Command::new(env!("CARGO_BIN_EXE_carom")).arg("run").args(words).output().expect("the built binary");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("text");
+    (done.status.code(), text(done.stdout), text(done.stderr))
+}
+
+#[test]
+fn the_judge_changes_no_bit_and_says_that_all_is_well() {
+    let (code, plain, _) = carom(&["paper-1", "--method", "exact", "--until", "5"]);
+    let (checked_code, checked, told) = carom(&["paper-1", "--method", "exact", "--until", "5", "--check"]);
+    assert_eq!((code, checked_code), (Some(0), Some(0)), "{told}");
+    assert_eq!(checked.trim_end(), format!("{} check=ok", plain.trim_end()));
+}
+
+#[test]
+fn a_method_that_gains_energy_is_told_and_condemned_if_asked() {
+    // Euler frames let a bounce return from a place below the one that it has lost its energy for
+    let (code, line, told) = carom(&["paper-3", "--until", "10"]);
+    assert!(code == Some(0) && !line.contains("check="), "{line}{told}");
+    let (code, line, told) = carom(&["paper-3", "--until", "10", "--check"]);
+    assert!(code == Some(1) && line.contains(" check=1") && told.contains("the energy rises by"), "{line}{told}");
+}
