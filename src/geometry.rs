@@ -94,25 +94,62 @@ impl Parallelogram {
         self.closest(p).offset.length()
     }
 
-    /// Whether a box (m) may share a point with the wall: never false if it does, and true for no box that an edge, a
-    /// face or a cross product of edges clearly separates from it (the separating axis theorem).
-    pub fn may_touch(&self, other: &Bounds) -> bool {
-        let (half, between) = (other.size() * 0.5, other.center() - self.center);
-        // Rounding of the difference grows with the coordinates: 1e-12 of them is some thousand units of it.
-        let slack = 1e-12 * (other.center().abs().max(self.center.abs()).max_element() + half.max_element());
-        let apart = |axis: DVec3| {
-            let reach = half.dot(axis.abs()) + 0.5 * (axis.dot(self.s1).abs() + axis.dot(self.s2).abs());
-            axis.dot(between).abs() > reach * (1.0 + 1e-12) + slack * axis.abs().element_sum()
-        };
-        let sides = [DVec3::X, DVec3::Y, DVec3::Z];
-        let across = || sides.iter().flat_map(|&side| [side.cross(self.s1), side.cross(self.s2)]);
-        !(sides.into_iter().any(apart) || apart(self.s1.cross(self.s2)) || across().any(apart))
+    /// The wall as [`Outline::may_touch`] wants it: worth while for more than one box.
+    pub fn outline(&self) -> Outline {
+        let across = |edge: DVec3| [DVec3::X, DVec3::Y, DVec3::Z].map(|side| side.cross(edge));
+        let ([a, b, c], [d, e, f]) = (across(self.s1), across(self.s2));
+        let axes = [self.s1.cross(self.s2), a, b, c, d, e, f, DVec3::ZERO];
+        Outline {
+            bounds: self.bounds(),
+            center: self.center,
+            axes: [0, 1, 2].map(|k| axes.map(|axis| axis[k])),
+            sizes: [0, 1, 2].map(|k| axes.map(|axis| axis[k].abs())),
+            reaches: axes.map(|axis| 0.5 * (axis.dot(self.s1).abs() + axis.dot(self.s2).abs())),
+        }
     }
 
     /// The smallest box around the outline, m.
     pub fn bounds(&self) -> Bounds {
         let half = (self.s1.abs() + self.s2.abs()) * 0.5;
         Bounds { min: self.center - half, max: self.center + half }
+    }
+}
+
+/// A parallelogram, and the axes on which a box can lie apart from it (the separating axis theorem): the sides of the
+/// box, the normal, and the cross products of a side and an edge. Eight at a time, the last of which tells nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Outline {
+    /// The smallest box around the parallelogram, m.
+    bounds: Bounds,
+    /// Centre, m.
+    center: DVec3,
+    /// Components of the axes (m², or m for a cross product with a side), of any length.
+    axes: [[f64; 8]; 3],
+    /// Their absolute values.
+    sizes: [[f64; 8]; 3],
+    /// Half the width of the parallelogram along each axis, m times the axis.
+    reaches: [f64; 8],
+}
+
+impl Outline {
+    /// Whether a box (m) may share a point with the wall: never false if it does, and true for no box that an edge, a
+    /// face or a cross product of edges clearly separates from it.
+    pub fn may_touch(&self, other: &Bounds) -> bool {
+        let (half, between) = (other.size() * 0.5, other.center() - self.center);
+        // Rounding of the difference grows with the coordinates: 1e-12 of them is some thousand units of it.
+        let slack = 1e-12 * (other.center().abs().max(self.center.abs()).max_element() + half.max_element());
+        if !other.grown(slack).touches(&self.bounds.grown(slack)) {
+            return false;
+        }
+        let ([x, y, z], [a, b, c]) = (&self.axes, &self.sizes);
+        let mut apart = false;
+        // All eight and no branch, so that the compiler takes some at once.
+        for k in 0..8 {
+            let reach = half.x * a[k] + half.y * b[k] + half.z * c[k] + self.reaches[k];
+            let distance = (x[k] * between.x + y[k] * between.y + z[k] * between.z).abs();
+            apart |= distance > reach * (1.0 + 1e-12) + slack * (a[k] + b[k] + c[k]);
+        }
+        !apart
     }
 }
 
@@ -239,12 +276,12 @@ mod tests {
 
     #[test]
     fn a_box_that_holds_a_point_of_a_wall_may_touch_it_and_a_box_well_off_does_not() {
-        let wall = slanted();
+        let (wall, outline) = (slanted(), slanted().outline());
         for k in 0..4096 {
             let at = |shift: u32| f64::from((k >> shift) & 15) - 7.5;
             let center = wall.center + DVec3::new(at(0), at(4), at(8)) * 0.4;
             for half in [0.01, 0.3, 1.0] {
-                let (near, may) = (wall.distance(center), wall.may_touch(&Bounds::around(center, half)));
+                let (near, may) = (wall.distance(center), outline.may_touch(&Bounds::around(center, half)));
                 // A box holds its inscribed ball and lies within the ball around it.
                 assert!(may || near > half, "{center} is {near} m from the wall, half {half}");
                 assert!(!may || near <= half * 3f64.sqrt() * (1.0 + 1e-9), "{center} is {near} m off, half {half}");

@@ -35,8 +35,9 @@ pub(super) fn refuse_overlaps(
         return Err(refuse((a, b), spheres.describe(b), pair_depth(&all[a], &all[b])));
     }
     let overlapped = |(index, wall): (usize, &Wall)| {
+        let outline = wall.shape.outline();
         let hit = |a: usize| effort.spend(SLANTED) && wall_depth(&all[a], wall).is_some();
-        tree.first(|bounds| effort.spend(SLANTED) && wall.shape.may_touch(bounds), hit).map(|a| (a, index))
+        tree.first(|bounds| effort.spend(SLANTED) && outline.may_touch(bounds), hit).map(|a| (a, index))
     };
     if let Some((a, wall)) = walls.list.iter().enumerate().find_map(overlapped) {
         return Err(refuse((a, a), walls.describe(wall), wall_depth(&all[a], &walls.list[wall])));

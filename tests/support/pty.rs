@@ -167,6 +167,11 @@ impl Pty {
         self.emulator.screen_mut().set_size(at_least_one(rows), at_least_one(cols));
     }
 
+    /// Gives the test so long from now on, instead of what is long enough for every other one.
+    pub(crate) fn allow(&mut self, time: Duration) {
+        self.watch = watch::Watch::within(self.pid, time);
+    }
+
     /// Memory that the program has in use, bytes; 0 where the system has no `/proc`.
     pub(crate) fn memory(&self) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.pid.as_raw_nonzero())).unwrap_or_default();

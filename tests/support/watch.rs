@@ -28,7 +28,8 @@ impl Watch {
         Watch::within(pid, LIMIT)
     }
 
-    fn within(pid: Pid, limit: Duration) -> Watch {
+    /// The same, by another limit.
+    pub(crate) fn within(pid: Pid, limit: Duration) -> Watch {
         let (over, end) = mpsc::channel::<()>();
         thread::spawn(move || {
             if end.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
