@@ -2,6 +2,10 @@
 
 use super::*;
 
+/// Gap, in radii, from which on a contact that carries nothing is not told to rest: idle ones open up to 1e-6 of the
+/// accelerations before their island is solved again.
+const APART: f64 = 1e-10;
+
 /// The support force of a resting contact, and what it has given since the frame began.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Load {
@@ -51,11 +55,14 @@ impl<D: Detector> Exact<D> {
     /// given in the frame.
     pub(in crate::physics::exact) fn list_rests(&mut self, model: &Model, log: &mut Log, end: f64) {
         let (start, met) = (self.frame.time, log.contacts.len());
-        for (&key, held) in &self.rests.held {
+        for (&key, held) in self.rests.held.iter().filter(|(_, held)| held.announced) {
             let impulse = Load { since: held.load.since.max(start), ..held.load }.given(end);
+            let shown = self.shown(model, key, end);
+            // what has come apart since it carried anything is held for the solver's sake alone
+            let touches = held.load.force > 0.0 || shown.gap <= APART * shown.reach;
             let begun = |row: &crate::physics::Contact| row.class == Class::Rest && row.key() == key;
-            if held.announced && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
-                let row = self.shown(model, key, end).row(end, Class::Rest, impulse, 0.0);
+            if touches && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
+                let row = shown.row(end, Class::Rest, impulse, 0.0);
                 log.contacts.push(crate::physics::Contact { approach_speed: 0.0, ..row });
             }
         }
