@@ -14,7 +14,7 @@ const SHORTFALL: f64 = 1e-9;
 /// one axis-aligned rectangular wall. As long as a centre stays in the box, its foot on each of these walls lies on the
 /// face; to leave, it would have to pass a wall. (`paper` lets fast spheres do just that, so it goes on asking for the
 /// closest point where a foot does fall off the face.)
-pub(super) fn sealed(walls: &[Parallelogram], centers: &[DVec3], radii: &[f64]) -> Vec<bool> {
+pub(super) fn edges_unreachable(walls: &[Parallelogram], centers: &[DVec3], radii: &[f64]) -> Vec<bool> {
     let mut sealed = vec![false; walls.len()];
     let Some(spheres) = Bounds::of(centers.iter().map(|&c| Bounds { min: c, max: c })) else { return sealed };
     let short = SHORTFALL * radii.iter().copied().fold(f64::INFINITY, f64::min);
@@ -67,7 +67,7 @@ fn nearest(flat: &[(usize, usize, Bounds)], spheres: &Bounds) -> Option<[(usize,
 mod tests {
     use glam::{DVec3, dvec3};
 
-    use super::sealed;
+    use super::edges_unreachable;
     use crate::geometry::Parallelogram;
 
     fn wall(center: DVec3, s1: DVec3, s2: DVec3) -> Parallelogram {
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn a_closed_room_around_all_spheres_is_sealed() {
         let centers = [dvec3(0.5, 0.5, 0.5), dvec3(-2.0, 1.0, 3.0)];
-        assert_eq!(sealed(&room(dvec3(10.0, 8.0, 9.0)), &centers, &[0.5, 0.5]), [true; 6]);
+        assert_eq!(edges_unreachable(&room(dvec3(10.0, 8.0, 9.0)), &centers, &[0.5, 0.5]), [true; 6]);
     }
 
     #[test]
@@ -94,7 +94,7 @@ mod tests {
         let mut walls = room(DVec3::splat(10.0));
         walls.push(wall(DVec3::ZERO, dvec3(4.0, 3.0, 0.0), DVec3::Z));
         let expected = [true, true, true, true, true, true, false];
-        assert_eq!(sealed(&walls, &[DVec3::splat(3.0)], &[0.5]), expected);
+        assert_eq!(edges_unreachable(&walls, &[DVec3::splat(3.0)], &[0.5]), expected);
     }
 
     #[test]
@@ -106,8 +106,8 @@ mod tests {
         let mut tilted = whole.clone();
         tilted[2].s1 += DVec3::Y * 1e-3;
         for walls in [&gap, &tilted, &whole[..5].to_vec()] {
-            assert!(!sealed(walls, &inside, &[0.5]).contains(&true));
+            assert!(!edges_unreachable(walls, &inside, &[0.5]).contains(&true));
         }
-        assert!(!sealed(&whole, &[DVec3::ZERO, DVec3::X * 6.0], &[0.5, 0.5]).contains(&true));
+        assert!(!edges_unreachable(&whole, &[DVec3::ZERO, DVec3::X * 6.0], &[0.5, 0.5]).contains(&true));
     }
 }

@@ -1,83 +1,23 @@
-//! Flight and impact: the one impact law (source: paper 2.4).
+//! The one impact law (source: paper 2.4).
 //!
 //! Every method classifies a contact and computes its impulse here, and every one takes the sign of v_n from
 //! [`normal_velocity`]: a predictor and a handler that disagree by one rounding would fire the same event for ever.
 
 use glam::DVec3;
 
-use super::model::ContactLaw;
-use super::{Class, Kind, Model};
-
-/// What flight does to a velocity; a type for each [`Pull`](super::model::Pull), so that a loop over spheres contains nothing that the
-/// scene does not require.
-pub trait Flight: Copy {
-    /// Whether it changes velocities at all.
-    const BENDS: bool = true;
-
-    /// The velocity of sphere `i` (m/s) a time `h` (s) after it was `v`.
-    fn velocity(self, v: DVec3, i: usize, h: f64) -> DVec3;
-}
-
-/// Nothing accelerates: `Pull::None`.
-#[derive(Debug, Clone, Copy)]
-pub struct Straight;
-
-/// Gravity alone, m/s²: `Pull::Uniform`.
-#[derive(Debug, Clone, Copy)]
-pub struct Uniform(pub DVec3);
-
-/// Accelerations by sphere, m/s²: `Pull::PerSphere`.
-#[derive(Debug, Clone, Copy)]
-pub struct PerSphere<'a>(pub &'a [DVec3]);
-
-impl Flight for Straight {
-    const BENDS: bool = false;
-
-    #[inline(always)]
-    fn velocity(self, v: DVec3, _: usize, _: f64) -> DVec3 {
-        v
-    }
-}
-
-impl Flight for Uniform {
-    #[inline(always)]
-    fn velocity(self, v: DVec3, _: usize, h: f64) -> DVec3 {
-        v + self.0 * h
-    }
-}
-
-impl Flight for PerSphere<'_> {
-    #[inline(always)]
-    fn velocity(self, v: DVec3, i: usize, h: f64) -> DVec3 {
-        v + self.0[i] * h
-    }
-}
-
-/// Calls a generic function with the model's type of [`Flight`].
-macro_rules! with_flight {
-    ($model:expr, $flight:ident => $call:expr) => {
-        match $model.pull {
-            $crate::physics::model::Pull::None => {
-                let $flight = $crate::physics::motion::Straight;
-                $call
-            }
-            $crate::physics::model::Pull::Uniform(g) => {
-                let $flight = $crate::physics::motion::Uniform(g);
-                $call
-            }
-            $crate::physics::model::Pull::PerSphere => {
-                let $flight = $crate::physics::motion::PerSphere(&$model.accelerations);
-                $call
-            }
-        }
-    };
-}
-pub(crate) use with_flight;
+use super::contact::{Class, Kind};
+use super::model::{ContactLaw, Model};
 
 /// v_n = (v_a − v_b)·n, m/s; positive: leaving. A wall's `v_b` is 0.
 #[inline]
 pub fn normal_velocity(v_a: DVec3, v_b: DVec3, normal: DVec3) -> f64 {
     (v_a - v_b).dot(normal)
+}
+
+/// v_n of a pair at offset `x` (m) with relative velocity `v`, m/s: the handler's expression.
+#[inline]
+pub fn pair_normal_velocity(x: DVec3, v: DVec3) -> f64 {
+    normal_velocity(v, DVec3::ZERO, x / x.length())
 }
 
 /// What the impact law makes of a contact with normal velocity `v_n` (m/s), whose bodies are or are not pressed
@@ -120,4 +60,22 @@ pub fn wall_impulse(model: &Model, sphere: usize, v: DVec3, normal: DVec3, v_n: 
 #[inline]
 pub fn pair_impulse(model: &Model, a: usize, b: usize, v_n: f64, class: Class) -> f64 {
     (separation_speed(v_n, class, Kind::Pair, &model.law) - v_n) / (model.inverse_masses[a] + model.inverse_masses[b])
+}
+
+/// The change of velocity (m/s) that changes v_n by `change` (m/s): n `change` / n². A wall's normal is off by the same
+/// ulp in every impact, and so would be the energy.
+pub(crate) fn along(normal: DVec3, change: f64) -> DVec3 {
+    // n² − 1 to 1e-23: the squares of the multiples of 2⁻²⁶ next to the components, and their sum, are exact
+    let shift = DVec3::splat(1.5 * (1_u64 << 26) as f64);
+    let high = (normal + shift) - shift;
+    let low = normal - high;
+    let excess = (high.length_squared() - 1.0) + (2.0 * high + low).dot(low);
+    normal * (change - change * excess)
+}
+
+/// The impulse (N s) on the first of two spheres at offset `arm` (m) with relative velocity `w` (m/s), `share` = 1/m₁ + 1/m₂:
+/// along the arm by its actual length, since a unit normal's rounding would let the energy creep upwards.
+#[inline(always)]
+pub(crate) fn pair_push(arm: DVec3, w: DVec3, share: f64, restitution: f64) -> DVec3 {
+    arm * (-(1.0 + restitution) * arm.dot(w) / (arm.length_squared() * share))
 }

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::ContactLaw;
+use super::model::ContactLaw;
 
 thread_local! {
     /// What the restitution of pairs and of walls is multiplied by.

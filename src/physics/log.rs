@@ -1,7 +1,7 @@
 //! What a run tells of itself: the contacts and probes of its last frame, its events, its tallies.
 
-use super::contact::Key;
-use super::{Class, Contact, Probe, Tallies};
+use super::contact::{Class, Contact, Key, Probe};
+use super::state::Tallies;
 
 /// Filled by the method, read through the door.
 #[derive(Debug, Clone, Default)]

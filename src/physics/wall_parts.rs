@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 
-use super::contact_time::{Part, Path};
-use super::model::Face;
+use super::path::Path;
+use super::wall::{Face, Part};
 use crate::roots::quadratic_fall;
 
 /// A plane beyond which another part takes over: `normal`·(x − `at`) is the room left, m.
@@ -46,19 +46,19 @@ fn borders(face: &Face, part: Part) -> impl Iterator<Item = Border> {
 
 /// How far the point closest to `x` is inside a part of a wall, m: the least distance to where another part takes over;
 /// negative beyond.
-pub(in crate::physics) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
+pub(crate) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
     borders(face, part).map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
 }
 
 /// How far beyond a border at which it begins a contact belongs to the next part, in radii or coordinates, whichever are
 /// larger: more than rounding, so that a sphere that slides along a border does not change its part for ever, and less
 /// than matters, since the distances to two parts differ by half its square.
-pub(in crate::physics) const BORDER: f64 = 1e-12;
+pub(crate) const BORDER: f64 = 1e-12;
 
 /// When a sphere of radius `r` (m) on `path`, in touch with `part` of a wall, comes to where another part takes over, s
 /// from now: the first time at which it is on the border and moving outwards; if it begins there, or beyond, the first time
 /// at which it is [`BORDER`] beyond. Only times below `before` (s) matter.
-pub(in crate::physics) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64) -> Option<f64> {
+pub(crate) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64) -> Option<f64> {
     let least = BORDER * path.x.abs().max_element().max(r);
     let end = |border: Border| {
         let (n, room) = (border.inward, border.inward.dot(path.x - border.at));
@@ -71,7 +71,7 @@ pub(in crate::physics) fn part_end(face: &Face, part: Part, path: &Path, r: f64,
 /// The part of a wall that is closest to a sphere of radius `r` (m) at `x` just from now on, given how it moves: on a
 /// border it is the part that the motion leads to. Decided by the borders alone: near a corner the distances to the
 /// corner and to the edge beside it differ by less than rounding.
-pub(in crate::physics) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> Part {
+pub(crate) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> Part {
     // Far enough to be clear of the rounding of x, near enough not to change anything but a border's side.
     let ahead = 1e-9 * r;
     let direction = if v == DVec3::ZERO { a } else { v };
@@ -91,7 +91,7 @@ pub(in crate::physics) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, 
 mod tests {
     use super::*;
     use crate::geometry::Parallelogram;
-    use crate::physics::contact_time::touch;
+    use crate::physics::wall::touch;
 
     fn skewed() -> Face {
         Face::new(Parallelogram {

@@ -3,38 +3,23 @@
 
 use glam::DVec3;
 
-use super::Exact;
-use super::flight::Line;
+use super::bounce_series::Bounces;
+use super::detector::Detector;
+use super::engine::EventDriven;
 use super::impact::Meeting;
-use super::rest::ROUNDING;
-use super::series::Bounces;
-use crate::physics::contact_time::{Part, Path, touch};
-use crate::physics::detector::Detector;
-use crate::physics::{Kind, Model};
+use super::islands::equilibrium::ROUNDING;
+use super::trajectories::Line;
+use crate::physics::contact::Kind;
+use crate::physics::impact_law::along;
+use crate::physics::model::Model;
+use crate::physics::path::Path;
+use crate::physics::wall::{Part, touch};
 
 /// A sphere this many radii from a face has just touched it.
 const SMALL_GAP: f64 = 1e-9;
 
 /// How far a sphere that something else holds may be pulled while bounces that are summed up go on, in radii.
 const PULLED: f64 = 1e-9;
-
-/// The change of velocity (m/s) that changes v_n by `change` (m/s): n `change` / n². A wall's normal is off by the same
-/// ulp in every impact, and so would be the energy.
-pub(super) fn along(normal: DVec3, change: f64) -> DVec3 {
-    // n² − 1 to 1e-23: the squares of the multiples of 2⁻²⁶ next to the components, and their sum, are exact
-    let shift = DVec3::splat(1.5 * (1_u64 << 26) as f64);
-    let high = (normal + shift) - shift;
-    let low = normal - high;
-    let excess = (high.length_squared() - 1.0) + (2.0 * high + low).dot(low);
-    normal * (change - change * excess)
-}
-
-/// The impulse (N s) on the first of two spheres at offset `arm` (m) with relative velocity `w` (m/s), `share` = 1/m₁ + 1/m₂:
-/// along the arm by its actual length, since a unit normal's rounding would let the energy creep upwards.
-#[inline(always)]
-pub(super) fn pair_push(arm: DVec3, w: DVec3, share: f64, restitution: f64) -> DVec3 {
-    arm * (-(1.0 + restitution) * arm.dot(w) / (arm.length_squared() * share))
-}
 
 /// What bounces that were summed up do to the tangential velocity of a sphere when they are over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +41,7 @@ impl Rub {
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
     /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
     /// 1e-5 of it each, and the time that they take.

@@ -5,13 +5,12 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::Exact;
-use super::class::SMALL_HOP;
+use super::detector::Detector;
+use super::engine::EventDriven;
 use super::impact::{HOP, Meeting};
-use crate::physics::contact::Key;
-use crate::physics::detector::Detector;
-use crate::physics::model::ContactLaw;
-use crate::physics::{Kind, Model};
+use super::rest_criteria::SMALL_HOP;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::{ContactLaw, Model};
 
 /// The law that takes nothing away: nothing dies out by it.
 const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 };
@@ -73,7 +72,7 @@ impl Row {
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
     /// bodies last changed. A chain of impacts at one instant alone is no such row: nothing has fed it.
     pub(super) fn chatters(&mut self, model: &Model, meeting: &Meeting, since: f64) -> bool {
@@ -102,7 +101,7 @@ impl<D: Detector> Exact<D> {
         row.is_endless(approach_speed, keeps, pull)
     }
 
-    /// Whether [`Exact::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
+    /// Whether [`EventDriven::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
     #[inline(always)]
     pub(super) fn may_chatter(&self, meeting: &Meeting, since: f64) -> bool {
         let fed = self.flight.common() != Some(DVec3::ZERO);

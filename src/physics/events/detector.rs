@@ -1,30 +1,30 @@
 //! What tells an event-driven loop when bodies next touch: by roots (`exact`) or by looking (`swept`).
 
-use super::Settings;
-use super::contact_time::Path;
-use super::log::Log;
-use super::model::Face;
+use crate::physics::log::Log;
+use crate::physics::model::Settings;
+use crate::physics::path::Path;
+use crate::physics::wall::Face;
 
 /// When a contact is due.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Due {
+pub(crate) struct Due {
     /// Seconds from now.
-    pub(super) after: f64,
+    pub(crate) after: f64,
     /// Whether they touch then; else they certainly do not before, and it is time to look again.
-    pub(super) sure: bool,
+    pub(crate) sure: bool,
 }
 
 /// Which stretch of time is of interest.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Span {
+pub(crate) struct Span {
     /// The present, s: paths begin now.
-    pub(super) now: f64,
+    pub(crate) now: f64,
     /// Only times below this many seconds from now matter.
-    pub(super) before: f64,
+    pub(crate) before: f64,
 }
 
 /// When do bodies next touch while approaching (the event rule of [`contact_time`](super::contact_time))?
-pub(super) trait Detector: std::fmt::Debug + Clone {
+pub(crate) trait Detector: std::fmt::Debug + Clone {
     /// Whether [`straight_pair`](super::contact_time::straight_pair) answers for spheres of equal acceleration.
     const SOLVES: bool;
 

@@ -6,63 +6,28 @@
 //! instant, islands of resting contacts are settled (`rest`). Reading never rewrites a line (`flight`), and frames only
 //! say where to pause: neither changes a bit of the trajectory.
 
-mod bounce;
-mod cells;
-mod chatter;
-mod class;
-mod curved;
-mod flight;
-mod impact;
-mod instant;
-mod islands;
-mod lanes;
-mod load;
-mod near;
-mod order;
-mod prediction;
-mod queue;
-mod replay;
-mod rest;
-mod review;
-mod roots;
-mod scout;
-mod series;
-mod squeezed;
-mod strike;
-mod ties;
-
 use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::chattering::{Chatter, weight};
 use super::detector::Detector;
-use super::log::Log;
-use super::{Description, Engine, Method, Model, Progress, Settings, Stall, State, Until};
-use cells::Cells;
-use chatter::{Chatter, weight};
-use flight::Flight;
-use instant::{Instant, beginning};
-use islands::Rests;
-use lanes::Lanes;
-use near::Near;
-use prediction::Sort;
-use queue::Queue;
-use replay::{Origin, Replay};
-use review::Wear;
-pub(super) use roots::Roots;
-use scout::Scout;
-use ties::Ties;
-
-/// What the method is.
-pub(super) const DESCRIPTION: Description = Description {
-    method: Method::Exact,
-    summary: "event-driven: parabolas between contacts whose times are roots of polynomials; no time step",
-    order: "exact up to rounding; curved rest (on edges, corners and other spheres) is integrated to 1e-12, and bounces \
-            across less than 1e-7 r that others keep from dying out rest after a hundred",
-    source: "Lubachevsky 1991; event rule of Bannerman et al. 2014; complementarity of resting islands",
-    knobs: "none: dt only sets the frames that are shown, the tolerance is not used",
-    avoid: "crowds that settle with restitution below 1: their events come ever faster",
-};
+use super::instant::{Instant, beginning};
+use super::islands::resting::Rests;
+use super::resumable::{self, Origin, Replay};
+use super::schedule::candidates::Near;
+use super::schedule::cells::Cells;
+use super::schedule::prediction::Sort;
+use super::schedule::prefetch::Scout;
+use super::schedule::queue::Queue;
+use super::schedule::simd::Lanes;
+use super::schedule::ties::Ties;
+use super::schedule::upkeep::Wear;
+use super::trajectories::Flight;
+use crate::physics::log::Log;
+use crate::physics::method::{Engine, Progress, Until};
+use crate::physics::model::{Model, Settings};
+use crate::physics::state::{Stall, State};
 
 /// Spheres beyond this many are kept in cells.
 const FEW: usize = 64;
@@ -73,69 +38,69 @@ const MOST_IDLE: f64 = (1_u64 << 30) as f64;
 
 /// The event-driven method at work.
 #[derive(Debug, Clone)]
-pub(super) struct Exact<D> {
-    settings: Settings,
-    detector: D,
+pub(crate) struct EventDriven<D> {
+    pub(super) settings: Settings,
+    pub(super) detector: D,
     /// Time of the last event, s.
-    now: f64,
-    frame: Frame,
+    pub(super) now: f64,
+    pub(super) frame: Frame,
     /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
-    goal: f64,
+    pub(super) goal: f64,
     /// Where the frame under way ends if nothing happens before, s.
-    end: f64,
-    flight: Flight,
+    pub(super) end: f64,
+    pub(super) flight: Flight,
     /// By seat.
-    queue: Queue,
+    pub(super) queue: Queue,
     /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
-    next: Option<(f64, usize)>,
-    ties: Ties,
-    cells: Option<Box<Cells>>,
+    pub(super) next: Option<(f64, usize)>,
+    pub(super) ties: Ties,
+    pub(super) cells: Option<Box<Cells>>,
     /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
-    until: f64,
+    pub(super) until: f64,
     /// Lent to whoever looks around.
-    near: Option<Box<Near>>,
-    wear: Wear,
-    scout: Scout,
-    lanes: Lanes,
-    rests: Rests,
-    instant: Instant,
+    pub(super) near: Option<Box<Near>>,
+    pub(super) wear: Wear,
+    pub(super) scout: Scout,
+    pub(super) lanes: Lanes,
+    pub(super) rests: Rests,
+    pub(super) instant: Instant,
     /// The time scale of the start, s: what the clock is taken for at its zero.
-    beginning: f64,
-    chatter: Chatter,
+    pub(super) beginning: f64,
+    pub(super) chatter: Chatter,
     /// What all spheres weigh, N.
-    weight: f64,
+    pub(super) weight: f64,
     /// Gaps computed since the log was last told.
-    evaluations: u64,
-    origin: Origin,
+    pub(super) evaluations: u64,
+    pub(super) origin: Origin,
     /// How the run began that this one has yet to catch up with.
-    resumes: Option<State>,
-    replay: Option<Box<Replay<D>>>,
+    pub(super) resumes: Option<State>,
+    pub(super) replay: Option<Box<Replay<D>>>,
 }
 
 /// What one single-step shows: up to the next event, or dt.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Frame {
+pub(super) struct Frame {
     /// End of the last complete frame, s.
-    time: f64,
+    pub(super) time: f64,
     /// Its length, s.
-    step: f64,
+    pub(super) step: f64,
     /// Whether the next one is under way.
-    open: bool,
+    pub(super) open: bool,
 }
 
 /// What became of one turn of the loop.
-enum Turn {
+pub(super) enum Turn {
     /// An event was handled.
     Event,
     /// The frame in progress is complete.
     Frame,
 }
 
-impl<D: Detector> Engine for Exact<D> {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Exact<D> {
+impl<D: Detector> Engine for EventDriven<D> {
+    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> EventDriven<D> {
         let count = model.len();
         let origin = if state == model.initial { Origin::Model } else { Origin::State(Box::new(state.clone())) };
-        let mut exact = Exact {
+        let mut exact = EventDriven {
             settings,
             detector: D::new(settings),
             now: state.t,
@@ -233,15 +198,16 @@ impl<D: Detector> Engine for Exact<D> {
 
     fn transient(&self, model: &Model) -> Vec<DVec3> {
         match (&self.resumes, &self.origin) {
-            (Some(state), _) => replay::written(state),
-            (None, Origin::Model) => replay::written(&model.initial),
-            (None, Origin::State(state)) => replay::written(state),
+            (Some(state), _) => resumable::written(state),
+            (None, Origin::Model) => resumable::written(&model.initial),
+            (None, Origin::State(state)) => resumable::written(state),
             (None, Origin::Lost) => Vec::new(),
         }
     }
 
     fn continue_with(&mut self, transient: &[DVec3]) {
-        self.resumes = replay::read(transient, self.flight.records.len()).filter(|origin| origin.t <= self.frame.time);
+        self.resumes =
+            resumable::read(transient, self.flight.records.len()).filter(|origin| origin.t <= self.frame.time);
     }
 
     fn hand_over(&self, model: &Model) -> State {
@@ -249,8 +215,8 @@ impl<D: Detector> Engine for Exact<D> {
     }
 }
 
-impl<D: Detector> Exact<D> {
-    fn open_frame(&mut self, log: &mut Log) {
+impl<D: Detector> EventDriven<D> {
+    pub(super) fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.end = self.frame_end();
         self.flight.forget();
@@ -260,12 +226,12 @@ impl<D: Detector> Exact<D> {
     }
 
     /// A frame is dt long, and so long at least that the clock moves on.
-    fn frame_end(&self) -> f64 {
+    pub(super) fn frame_end(&self) -> f64 {
         let start = self.frame.time;
         (start + self.settings.dt).max(start.next_up()).max(self.goal).min(f64::MAX)
     }
 
-    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
+    pub(super) fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
         self.detector.report(self.frame.time, end, log);
         self.list_rests(model, log, end);
         self.frame = Frame { time: end, step: end - self.frame.time, open: false };
@@ -279,7 +245,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// One event, or the end of the frame.
-    fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
+    pub(super) fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
         let (time, seat) = match self.next.take() {
             Some(next) => next,
             None => self.first(),

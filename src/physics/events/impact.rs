@@ -2,16 +2,15 @@
 
 use glam::DVec3;
 
-use super::Exact;
-use super::bounce::{along, pair_push};
-use crate::physics::contact::Key;
-use crate::physics::contact_time::{Part, curvature, pair_normal_velocity, touch};
-use crate::physics::detector::Detector;
+use super::detector::Detector;
+use super::engine::EventDriven;
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::impact_law::{along, normal_velocity, pair_normal_velocity, pair_push, separation_speed};
 use crate::physics::log::Log;
-use crate::physics::motion::{normal_velocity, separation_speed};
-use crate::physics::parts::part_ahead;
-use crate::physics::state::runaway;
-use crate::physics::{Class, Contact, Kind, Model, Stall};
+use crate::physics::model::Model;
+use crate::physics::state::{Stall, runaway};
+use crate::physics::wall::{Part, curvature, touch};
+use crate::physics::wall_parts::part_ahead;
 
 /// Flights shorter than this many times the clock's rounding, over 1 − e, never decay (Zeno).
 pub(super) const ZENO: f64 = 10.0;
@@ -84,7 +83,7 @@ pub(super) fn note(log: &mut Log, row: Contact) {
     log.event(row);
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// The contact that the sphere at a seat planned is due.
     pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
         let plan = self.flight.records[seat].plan;

@@ -1,18 +1,19 @@
 //! Contacts that exist at load: here alone does a gap of rounding's size count as touching.
 
-use super::Exact;
-use super::flight::Record;
-use super::near::Near;
-use crate::physics::contact::Key;
-use crate::physics::detector::Detector;
+use super::detector::Detector;
+use super::engine::EventDriven;
+use super::schedule::candidates::Near;
+use super::trajectories::Record;
+use crate::physics::contact::{Key, Kind};
 use crate::physics::log::Log;
+use crate::physics::model::Model;
 use crate::physics::overlap::touching;
-use crate::physics::{Kind, Model, Stall};
+use crate::physics::state::Stall;
 
 /// Events at the very start after which the rest is left to the first frame.
 const MOST_AT_LOAD: usize = 1_000_000;
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Handles what touches at the start, in the order of events, and predicts everything.
     pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
         let touching = self.touching_now(model);

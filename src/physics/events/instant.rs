@@ -10,12 +10,13 @@
 
 use std::collections::BTreeMap;
 
-use super::Exact;
-use super::chatter::DECAY;
+use super::chattering::DECAY;
+use super::detector::Detector;
+use super::engine::EventDriven;
 use super::impact::Meeting;
-use crate::physics::contact::Key;
-use crate::physics::detector::Detector;
-use crate::physics::{Kind, Model, Stall, State};
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::Model;
+use crate::physics::state::{Stall, State};
 
 /// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
 pub(super) const LONG_CHAIN: u64 = 1000;
@@ -111,10 +112,10 @@ pub(super) fn beginning(model: &Model, state: &State) -> f64 {
     if first.is_finite() { BEGINNING * first } else { 0.0 }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
-        let Exact { instant, now, beginning, .. } = self;
+        let EventDriven { instant, now, beginning, .. } = self;
         if time > *now {
             *now = time;
             (instant.events, instant.spent, instant.collapsed) = (0, 0, false);

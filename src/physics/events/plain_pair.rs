@@ -1,17 +1,17 @@
 //! Two spheres strike the way nearly all do in a gas: nothing rests, the same accelerates both, they approach faster than
 //! what may rest. It is what the general way (`impact`) makes of such a pair, bit for bit, with each record read once.
 
-use super::Exact;
-use super::bounce::pair_push;
-use super::flight::{Flight, Line};
+use super::detector::Detector;
+use super::engine::EventDriven;
 use super::impact::{Meeting, note};
 use super::instant::LONG_CHAIN;
-use super::prediction::Plan;
-use crate::physics::contact_time::pair_normal_velocity;
-use crate::physics::detector::Detector;
+use super::schedule::prediction::Plan;
+use super::trajectories::{Flight, Line};
+use crate::physics::contact::{Class, Kind};
+use crate::physics::impact_law::{pair_normal_velocity, pair_push, separation_speed};
 use crate::physics::log::Log;
-use crate::physics::motion::separation_speed;
-use crate::physics::{Class, Kind, Model, Stall};
+use crate::physics::model::Model;
+use crate::physics::state::Stall;
 
 /// Two spheres that touch now, the one of the lower index first.
 struct Pair {
@@ -24,7 +24,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// The pair that the sphere at a seat planned to meet, as [`Exact::seen`] sees it at `now` (s); none if what
+    /// The pair that the sphere at a seat planned to meet, as [`EventDriven::seen`] sees it at `now` (s); none if what
     /// accelerates them differs.
     #[inline(always)]
     fn new(flight: &Flight, seat: usize, plan: &Plan, now: f64) -> Option<Pair> {
@@ -54,7 +54,7 @@ impl Pair {
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Lets the impact law act on the pair that the sphere at a seat planned to meet, if it is as simple as that; says
     /// whether it was.
     #[inline]

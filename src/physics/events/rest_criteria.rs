@@ -1,15 +1,15 @@
 //! What the impact law makes of a contact, and where it has no further event in finite time or none that numbers can
 //! resolve: there the contact rests.
 
-use super::Exact;
+use super::detector::Detector;
+use super::engine::EventDriven;
 use super::impact::{HOP, Meeting, ZENO};
-use super::rest::closed_speed;
-use crate::physics::contact::Key;
-use crate::physics::contact_time::touch;
-use crate::physics::detector::Detector;
+use super::islands::equilibrium::closed_speed;
+use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::impact_law::classify;
 use crate::physics::log::Log;
-use crate::physics::motion::classify;
-use crate::physics::{Class, Kind, Model};
+use crate::physics::model::Model;
+use crate::physics::wall::touch;
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 pub(super) const SMALL_HOP: f64 = 1e-12;
@@ -17,7 +17,7 @@ pub(super) const SMALL_HOP: f64 = 1e-12;
 /// Cosine of the angle between two walls up to which an impulse off the one is mostly one off the other: 45°.
 const LEVEL: f64 = 0.7;
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
     pub(super) fn class(&mut self, model: &Model, log: &mut Log, meeting: &Meeting, since: f64) -> Class {
         let pressed = meeting.a_n < 0.0;

@@ -7,15 +7,17 @@
 
 use glam::DVec3;
 
-use super::{Exact, Frame};
-use crate::physics::detector::Detector;
+use super::detector::Detector;
+use super::engine::{EventDriven, Frame};
 use crate::physics::log::Log;
-use crate::physics::{Engine, Model, Settings, State};
+use crate::physics::method::Engine;
+use crate::physics::model::{Model, Settings};
+use crate::physics::state::State;
 
 /// A run that is being done again.
 #[derive(Debug, Clone)]
 pub(super) struct Replay<D> {
-    exact: Exact<D>,
+    exact: EventDriven<D>,
     log: Log,
 }
 
@@ -47,7 +49,7 @@ impl<D: Detector> Replay<D> {
     fn new(model: &Model, settings: Settings, origin: State) -> Replay<D> {
         let mut log = Log::default();
         // frames end at impacts only: they change no bit
-        let exact = Exact::begin(model, Settings { dt: f64::INFINITY, ..settings }, origin, &mut log);
+        let exact = EventDriven::begin(model, Settings { dt: f64::INFINITY, ..settings }, origin, &mut log);
         Replay { exact, log }
     }
 
@@ -71,7 +73,7 @@ impl<D: Detector> Replay<D> {
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Catches up with the run that this one continues, for about `work` events; whether it has.
     pub(super) fn catch_up(&mut self, model: &Model, work: u64) -> bool {
         let Some(origin) = self.resumes.take() else { return true };

@@ -4,15 +4,15 @@
 //! ever, at one place and one time, whatever the restitution. What there is of its velocity across those walls has no
 //! flight to bounce in: the contacts rest, pressed or not, and the sphere slides between them.
 
-use super::Exact;
-use super::flight::Record;
+use super::detector::Detector;
+use super::engine::EventDriven;
 use super::impact::Meeting;
-use crate::physics::contact::Key;
-use crate::physics::contact_time::touch;
-use crate::physics::detector::Detector;
+use super::trajectories::Record;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::Model;
 use crate::physics::overlap::touching;
 use crate::physics::support::{Row, solve};
-use crate::physics::{Kind, Model};
+use crate::physics::wall::touch;
 
 /// A wall can be left if that does not take turning by nearly a right angle: u·n above 64 ulp is a wedge of 1e-7 rad, in
 /// which a sphere bounces thirty million times and is out.
@@ -21,7 +21,7 @@ const LEAVES: f64 = 64.0 * f64::EPSILON;
 /// From so many events on without the clock advancing it is asked whether a sphere is squeezed, at powers of two.
 const DOUBTFUL: u64 = 4;
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Whether what is met can't ever be left: then all contacts that hold the sphere so rest from now on.
     pub(super) fn is_squeezed(&mut self, model: &Model, meeting: &Meeting) -> bool {
         let events = self.instant.events;

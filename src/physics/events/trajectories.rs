@@ -10,11 +10,12 @@
 
 use glam::DVec3;
 
-use super::cells::Spot;
-use super::prediction::Plan;
-use crate::physics::contact_time::Path;
+use super::schedule::cells::Spot;
+use super::schedule::prediction::Plan;
+use crate::physics::contact::Kind;
 use crate::physics::model::{Model, Pull};
-use crate::physics::{Kind, State};
+use crate::physics::path::Path;
+use crate::physics::state::State;
 
 /// Where a sphere was at its own time: 64 bytes, one cache line, twice four numbers for who reads four at once.
 #[derive(Debug, Clone, Copy, PartialEq)]

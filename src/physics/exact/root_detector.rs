@@ -1,14 +1,15 @@
 //! Contact times as roots of polynomials.
 
-use crate::physics::Settings;
-use crate::physics::contact_time::{Path, sphere_sphere, sphere_wall};
-use crate::physics::detector::{Detector, Due, Span};
+use crate::physics::contact_time::{sphere_sphere, sphere_wall};
+use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::log::Log;
-use crate::physics::model::Face;
+use crate::physics::model::Settings;
+use crate::physics::path::Path;
+use crate::physics::wall::Face;
 
 /// The detector of `exact`.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::physics) struct Roots;
+pub(crate) struct Roots;
 
 impl Detector for Roots {
     const SOLVES: bool = true;

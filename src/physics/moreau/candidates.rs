@@ -8,10 +8,11 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::super::contact::Key;
-use super::super::model::{Face, PairSearch};
-use super::super::neighbors::Cells;
-use super::super::{Kind, Model};
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::Model;
+use crate::physics::neighbors::Cells;
+use crate::physics::requirements::PairSearch;
+use crate::physics::wall::Face;
 
 /// Spheres or cells worked on between two looks at the budget.
 const CHUNK: usize = 4096;

@@ -12,11 +12,10 @@
 
 use glam::DVec3;
 
-use super::super::contact::Key;
-use super::super::contact_time::Part;
-use super::super::model::{Face, Pull};
-use super::super::overlap::touching;
-use super::super::{Class, Kind, Model, Settings, contact_time};
+use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::model::{Model, Pull, Settings};
+use crate::physics::overlap::touching;
+use crate::physics::wall::{self, Face, Part};
 
 /// Larger tolerances count as this one: a solver that may miss everything by half solves nothing.
 const LARGEST_TOLERANCE: f64 = 0.1;
@@ -72,7 +71,7 @@ struct Plane {
 
 impl Plane {
     /// The plane at the point closest to `x` (m) of a wall, for spheres of radius `r` (m).
-    fn at(touch: &contact_time::Touch, r: f64) -> Plane {
+    fn at(touch: &wall::Touch, r: f64) -> Plane {
         Plane { normal: touch.normal, level: touch.normal.dot(touch.point) + r }
     }
 
@@ -127,7 +126,7 @@ impl<'a> Path<'a> {
         let (at, size) = (self.from + self.velocity * t, self.size());
         match kind {
             Kind::Wall => {
-                let touch = contact_time::touch(&self.model.faces[b], at, size);
+                let touch = wall::touch(&self.model.faces[b], at, size);
                 (touch.normal, touch.gap)
             }
             Kind::Pair => {
@@ -175,7 +174,7 @@ impl<'a> Path<'a> {
         let (from, to) = (self.from, self.from + self.velocity * self.h);
         let rounding = touching(r, from.abs().max_element().max(to.abs().max_element()));
         let left = allowance.left.max(rounding);
-        let start = contact_time::touch(face, from, r);
+        let start = wall::touch(face, from, r);
         let first = Plane::at(&start, r);
         let clear = |plane: &Plane| {
             let height = plane.height(from);
@@ -190,7 +189,7 @@ impl<'a> Path<'a> {
         if clear(&first) {
             return over;
         }
-        let end = contact_time::touch(face, to, r);
+        let end = wall::touch(face, to, r);
         let last = Plane::at(&end, r);
         if clear(&last) {
             return over;

@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 
-use super::super::log::Log;
-use super::super::model::PairSearch;
-use super::super::motion::{Flight, with_flight};
-use super::super::overlap::{any_near, evaluations};
-use super::super::{Model, State};
-use super::trial::{Stage, carry_velocities, fly};
-use super::{Paper, Search};
+use super::run::{Paper, Search, Stage};
+use super::trial_step::{carry_velocities, fly};
+use crate::physics::free_flight::{Flight, with_flight};
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::overlap::{any_near, evaluations};
+use crate::physics::requirements::PairSearch;
+use crate::physics::state::State;
 
 /// How far a flight may go.
 #[derive(Debug, Clone, Copy)]

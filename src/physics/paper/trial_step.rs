@@ -6,23 +6,13 @@
 
 use std::ops::Range;
 
-use super::super::model::Pull;
-use super::super::motion::{Flight, with_flight};
-use super::super::overlap::CHUNK;
-use super::super::{Model, State};
 use super::Paper;
-use super::response::{Kick, Kicks};
-
-/// How much of a trial state has been computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
-    /// Spheres fly and meet walls, from this one on.
-    Fly(usize),
-    /// Pairs are searched.
-    Meet,
-    /// All of it.
-    Complete,
-}
+use super::kicks::{Kick, Kicks};
+use super::run::Stage;
+use crate::physics::free_flight::{Flight, with_flight};
+use crate::physics::model::{Model, Pull};
+use crate::physics::overlap::CHUNK;
+use crate::physics::state::State;
 
 /// `Forward(h)` of these spheres: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit Euler). Returns
 /// 0 if all new positions are finite, else NaN. In straight flight `end` holds the velocities already.

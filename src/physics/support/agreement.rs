@@ -3,9 +3,8 @@
 use glam::DVec3;
 
 use super::active_set::{self, DEPENDENT};
-use super::enumerate;
-use super::gauss_seidel;
 use super::problem::{LocalRow, Problem};
+use super::{enumerate, gauss_seidel};
 
 /// SplitMix64 mapped to [−1, 1), the seed first.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {

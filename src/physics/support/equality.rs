@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::Row;
 use super::active_set::DEPENDENT;
 use super::factor::{Append, Factor};
+use super::problem::Row;
 
 /// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0: every row holds and may pull. For the time between events, while it is known
 /// which contacts hold. Returns u by body and λ by row; a row that depends on others is left to them, with λ = 0.

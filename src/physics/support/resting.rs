@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Row, Solution, solve};
+use super::problem::Row;
+use super::solution::Solution;
+use super::solve::solve;
 
 /// The shape of what touches, as far as the gap's second derivative feels it.
 #[derive(Debug, Clone, Copy, PartialEq)]

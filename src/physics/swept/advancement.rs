@@ -11,12 +11,13 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::sight::{Glance, Pair, Sight, Wall};
-use crate::physics::contact_time::Path;
-use crate::physics::detector::{Detector, Due, Span};
+use super::separation::{Glance, Pair, Sight, Wall};
+use crate::physics::contact::Probe;
+use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::log::Log;
-use crate::physics::model::Face;
-use crate::physics::{Probe, Settings};
+use crate::physics::model::Settings;
+use crate::physics::path::Path;
+use crate::physics::wall::Face;
 use crate::roots::quadratic_fall;
 
 /// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
@@ -36,7 +37,7 @@ const PATIENCE: usize = 200;
 
 /// The detector of `swept`, and what it has looked at since it last told.
 #[derive(Debug, Clone)]
-pub(in crate::physics) struct Advance {
+pub(crate) struct Advance {
     /// Deepest overlap accepted, dimensionless.
     tolerance: f64,
     evaluations: Cell<u64>,

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use crate::physics::contact_time::{Path, curvature, pair_normal_velocity, touch};
-use crate::physics::model::Face;
-use crate::physics::motion::normal_velocity;
-use crate::physics::parts::part_ahead;
+use crate::physics::impact_law::{normal_velocity, pair_normal_velocity};
+use crate::physics::path::Path;
+use crate::physics::wall::{Face, curvature, touch};
+use crate::physics::wall_parts::part_ahead;
 
 /// Two bodies at one instant.
 #[derive(Debug, Clone, Copy)]

@@ -11,19 +11,11 @@
 //! another: a chord departs from the path by |jerk| h³/40, which must stay below [`DEPARTURE`], so that contact times
 //! with other bodies are predicted as in flight.
 
-mod motion;
-mod polynomial;
-
 use glam::DVec3;
 
-pub(super) use motion::geometry;
-use motion::{Motion, loaded};
-use polynomial::{Polynomial, cube_root, fall_below_zero};
-
-use crate::physics::contact_time::{Part, edge_direction, touch_part};
-use crate::physics::model::Face;
-use crate::physics::parts::{BORDER, room};
-use crate::physics::support::{Bodies, Resting, Row, Surface, accelerations, bind};
+use super::bodies::{Body, Closed};
+use super::equation::{Motion, loaded};
+use super::hermite::{Polynomial, cube_root, fall_below_zero};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
 const TOLERANCE: f64 = 1e-15;
@@ -61,57 +53,17 @@ const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// during the arc, some 1e-12 s late.
 const OVERSHOOT: f64 = 1e-10;
 
-/// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
-/// rounding, and less than moves anything by 1e-14 m during an arc.
-const IDLE: f64 = 1e-11;
-
-/// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
-const AJAR: f64 = 1e-6;
-
-/// A body of the island.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Body {
-    /// Centre, m.
-    pub(super) x: DVec3,
-    /// Velocity, m/s.
-    pub(super) v: DVec3,
-    /// Acceleration by everything but contacts, m/s².
-    pub(super) applied: DVec3,
-    /// 1/kg.
-    pub(super) inverse_mass: f64,
-    /// Radius, m.
-    pub(super) r: f64,
-}
-
-/// What a body of the island touches.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum On<'a> {
-    /// This part of a wall.
-    Wall(&'a Face, Part),
-    /// Another body of the island.
-    Body(usize),
-}
-
-/// A closed contact of the island.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Closed<'a> {
-    /// The body.
-    pub(super) a: usize,
-    /// What it touches.
-    pub(super) on: On<'a>,
-}
-
 /// A stretch of a curved motion during which the same contacts hold.
 #[derive(Debug, Clone)]
-pub(super) struct Arc {
+pub(crate) struct Arc {
     start: Ends,
     end: Ends,
     /// Between which times the polynomial runs, s.
     span: f64,
     /// How long the contacts hold, s, at most `span`.
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// Whether a contact lets go or changes its part at `length`.
-    pub(super) changes: bool,
+    pub(crate) changes: bool,
     /// A good span for the next arc, s.
     next: f64,
     /// Which contacts carry a load, and therefore hold.
@@ -128,18 +80,18 @@ struct Ends {
 impl Arc {
     /// The motion of bodies from now on, while the contacts that carry a load now go on holding. The contacts are closed
     /// (v_n = 0).
-    pub(super) fn new(bodies: Vec<Body>, contacts: &[Closed]) -> Arc {
+    pub(crate) fn new(bodies: Vec<Body>, contacts: &[Closed]) -> Arc {
         Arc::of(bodies, contacts, None)
     }
 
     /// The arc that goes on from the end of this one.
-    pub(super) fn go_on(&self, contacts: &[Closed]) -> Arc {
+    pub(crate) fn go_on(&self, contacts: &[Closed]) -> Arc {
         Arc::of(self.real(self.length, contacts), contacts, Some(self.next))
     }
 
     /// The bodies `time` (s) after the arc's beginning, integrated up to there: the polynomial is as good in x, but its v
     /// is off by its error over its span, which adds up where an arc is interrupted over and over.
-    pub(super) fn real(&self, time: f64, contacts: &[Closed]) -> Vec<Body> {
+    pub(crate) fn real(&self, time: f64, contacts: &[Closed]) -> Vec<Body> {
         if time <= 0.0 {
             return self.start.bodies.clone();
         }
@@ -199,7 +151,7 @@ impl Arc {
     }
 
     /// The bodies `time` (s) after the arc's beginning.
-    pub(super) fn at(&self, time: f64) -> Vec<Body> {
+    pub(crate) fn at(&self, time: f64) -> Vec<Body> {
         let start = self.start.bodies.iter().enumerate();
         let moved = |(i, body): (usize, &Body)| {
             let (x, v) = self.polynomial(i).read(time);
@@ -209,7 +161,7 @@ impl Arc {
     }
 
     /// How long a chord may be that begins at `from` (s) of the arc; no longer than what is left of it.
-    pub(super) fn chord(&self, from: f64) -> f64 {
+    pub(crate) fn chord(&self, from: f64) -> f64 {
         let left = self.length - from;
         let of = |(i, body): (usize, &Body)| {
             let path = self.polynomial(i);
@@ -280,6 +232,9 @@ impl Body {
 mod tests {
     use super::*;
     use crate::geometry::Parallelogram;
+    use crate::physics::events::curved::bodies::On;
+    use crate::physics::wall::{Face, Part};
+    use crate::physics::wall_parts::room;
 
     const G: f64 = 9.8;
 

@@ -1,6 +1,17 @@
 //! The differential equation of an island of resting contacts, and one step of Runge, Kutta and Fehlberg along it.
 
-use super::*;
+use glam::DVec3;
+
+use super::bodies::{Body, Closed, On, geometry};
+use crate::physics::support::{Bodies, Resting, Row, accelerations, bind};
+use crate::physics::wall_parts::{BORDER, room};
+
+/// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
+/// rounding, and less than moves anything by 1e-14 m during an arc.
+const IDLE: f64 = 1e-11;
+
+/// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
+const AJAR: f64 = 1e-6;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
@@ -10,7 +21,7 @@ const SUNK: f64 = 1e-13;
 const HEALED: f64 = 1e-10;
 
 /// The differential equation of an island while the contacts that carry a load now go on holding.
-pub(super) struct Motion<'a> {
+pub(crate) struct Motion<'a> {
     holding: Vec<Closed<'a>>,
     /// The gaps to keep, m: what rounding, or the scene, has left of 0. Nothing must jump, but of small overlaps half is
     /// healed by every arc: where a contact opens and closes over and over, they would add up.
@@ -22,7 +33,7 @@ pub(super) struct Motion<'a> {
 
 impl<'a> Motion<'a> {
     /// The motion from `bodies` on while the loaded contacts hold.
-    pub(super) fn held_by(bodies: &[Body], contacts: &[Closed<'a>], loaded: &[bool]) -> Motion<'a> {
+    pub(crate) fn held_by(bodies: &[Body], contacts: &[Closed<'a>], loaded: &[bool]) -> Motion<'a> {
         let pick = |wanted: bool| {
             let of = |(_, loaded): &(&Closed<'a>, &bool)| **loaded == wanted;
             contacts.iter().zip(loaded).filter(of).map(|(&contact, _)| contact).collect()
@@ -43,19 +54,19 @@ impl<'a> Motion<'a> {
     }
 
     /// Accelerations, m/s², and forces of the holding contacts, N.
-    pub(super) fn accelerations(&self, bodies: &[Body]) -> (Vec<DVec3>, Vec<f64>) {
+    pub(crate) fn accelerations(&self, bodies: &[Body]) -> (Vec<DVec3>, Vec<f64>) {
         let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
         bind(&self.inverse_mass, &applied, &self.rows(bodies, |_, curvature| curvature))
     }
 
     /// The bodies `h` seconds later.
-    pub(super) fn moved(&self, start: &[Body], h: f64) -> Vec<Body> {
+    pub(crate) fn moved(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &STAGES, &ORDER_8)
     }
 
     /// The same by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
     /// rounding.
-    pub(super) fn moved_a_little(&self, start: &[Body], h: f64) -> Vec<Body> {
+    pub(crate) fn moved_a_little(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &CLASSICAL, &ORDER_4)
     }
 
@@ -73,7 +84,7 @@ impl<'a> Motion<'a> {
 
     /// Puts the bodies back on the holding contacts by the least change in the metric of the masses: gaps as they were,
     /// J v = 0. The gap left by a step is so small that one step of Newton's method closes it.
-    pub(super) fn restore(&self, bodies: &mut [Body]) {
+    pub(crate) fn restore(&self, bodies: &mut [Body]) {
         let still = vec![DVec3::ZERO; bodies.len()];
         let mut rows = self.rows(bodies, |gap, _| gap);
         rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
@@ -82,14 +93,14 @@ impl<'a> Motion<'a> {
         self.restore_velocities(bodies);
     }
 
-    pub(super) fn restore_velocities(&self, bodies: &mut [Body]) {
+    pub(crate) fn restore_velocities(&self, bodies: &mut [Body]) {
         let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
         let v = bind(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0)).0;
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 
     /// What later margins are measured from.
-    pub(super) fn marks(&self, bodies: &[Body]) -> Marks {
+    pub(crate) fn marks(&self, bodies: &[Body]) -> Marks {
         let openings = self.openings(bodies, &self.accelerations(bodies).0);
         Marks { rooms: self.rooms(bodies), openings, gaps: self.idle_gaps(bodies) }
     }
@@ -97,7 +108,7 @@ impl<'a> Motion<'a> {
     /// Distance of each contact, holding ones before idle ones, from where another part of its wall takes over, in radii;
     /// ∞ for pairs. An idle contact counts too: on the edge that two walls share, the one that carries nothing takes over
     /// when the sphere rolls on to its face.
-    pub(super) fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
+    pub(crate) fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
         let of = |contact: &Closed| match contact.on {
             On::Wall(face, part) => room(face, part, bodies[contact.a].x) / bodies[contact.a].r,
             On::Body(_) => f64::INFINITY,
@@ -111,7 +122,7 @@ impl<'a> Motion<'a> {
     }
 
     /// J a + k of the idle contacts, in units of the applied acceleration.
-    pub(super) fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
+    pub(crate) fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
         let of = |&contact: &Closed| {
             let row = row(bodies, contact, &|_, curvature| curvature);
             let relative = a[row.a] - row.b.map_or(DVec3::ZERO, |b| a[b]);
@@ -123,7 +134,7 @@ impl<'a> Motion<'a> {
     /// The least that is left before something changes: load as an acceleration in units of what is applied; room in
     /// radii, where what began at the border or beyond counts only if it has gone on outwards, beyond rounding; what an
     /// idle contact may still open or close.
-    pub(super) fn margin(&self, bodies: &[Body], before: &Marks) -> f64 {
+    pub(crate) fn margin(&self, bodies: &[Body], before: &Marks) -> f64 {
         let (a, forces) = self.accelerations(bodies);
         let loads = self.holding.iter().zip(forces);
         let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
@@ -141,7 +152,7 @@ impl<'a> Motion<'a> {
 }
 
 /// Which contacts carry a load now.
-pub(super) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
+pub(crate) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
     let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
@@ -151,14 +162,14 @@ pub(super) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
 }
 
 /// Rooms, openings and gaps of idle contacts at the beginning of an arc.
-pub(super) struct Marks {
+pub(crate) struct Marks {
     rooms: Vec<f64>,
     openings: Vec<f64>,
     gaps: Vec<f64>,
 }
 
 /// Largest applied acceleration, m/s²: the unit of loads.
-pub(super) fn pull(bodies: &[Body]) -> f64 {
+pub(crate) fn pull(bodies: &[Body]) -> f64 {
     bodies.iter().map(|body| body.applied.length()).fold(f64::MIN_POSITIVE, f64::max)
 }
 
@@ -181,29 +192,6 @@ fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3
         Body { x: body.x + dx * h, v: body.v + dv * h, ..*body }
     };
     start.iter().enumerate().map(moved).collect()
-}
-
-/// A contact as `support` sees it, and its gap, m.
-pub(in crate::physics::exact) fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
-    let body = &bodies[contact.a];
-    match contact.on {
-        On::Wall(face, part) => {
-            let touch = touch_part(face, part, body.x, body.r);
-            let radius = body.r + touch.gap;
-            let surface = match part {
-                Part::Face => Surface::Face,
-                Part::Edge(k) => Surface::Edge { along: edge_direction(face, k), radius },
-                Part::Corner(_) => Surface::Round { radius },
-            };
-            (Resting { a: contact.a, b: None, normal: touch.normal, surface }, touch.gap)
-        }
-        On::Body(b) => {
-            let arm = body.x - bodies[b].x;
-            let radius = arm.length();
-            let surface = Surface::Round { radius };
-            (Resting { a: contact.a, b: Some(b), normal: arm / radius, surface }, radius - (body.r + bodies[b].r))
-        }
-    }
 }
 
 /// Weights of the stages of the classical method, each over the stages before it.

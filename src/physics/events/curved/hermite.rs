@@ -3,17 +3,17 @@
 use glam::DVec3;
 
 /// x + v t + a t²/2 + s³ (b₃ + b₄ s + b₅ s²), s = t/span.
-pub(super) struct Polynomial {
-    pub(super) x: DVec3,
-    pub(super) v: DVec3,
-    pub(super) a: DVec3,
-    pub(super) b: [DVec3; 3],
-    pub(super) span: f64,
+pub(crate) struct Polynomial {
+    pub(crate) x: DVec3,
+    pub(crate) v: DVec3,
+    pub(crate) a: DVec3,
+    pub(crate) b: [DVec3; 3],
+    pub(crate) span: f64,
 }
 
 impl Polynomial {
     /// Position and velocity.
-    pub(super) fn read(&self, t: f64) -> (DVec3, DVec3) {
+    pub(crate) fn read(&self, t: f64) -> (DVec3, DVec3) {
         let (s, [b3, b4, b5]) = (t / self.span, self.b);
         let x = self.x + (self.v + self.a * (0.5 * t)) * t + (b3 + (b4 + b5 * s) * s) * (s * s * s);
         let v = self.v + self.a * t + (b3 * 3.0 + (b4 * 4.0 + b5 * (5.0 * s)) * s) * (s * s / self.span);
@@ -21,7 +21,7 @@ impl Polynomial {
     }
 
     /// Third derivative, m/s³.
-    pub(super) fn jerk(&self, t: f64) -> DVec3 {
+    pub(crate) fn jerk(&self, t: f64) -> DVec3 {
         let (s, [b3, b4, b5]) = (t / self.span, self.b);
         (b3 * 6.0 + (b4 * 24.0 + b5 * (60.0 * s)) * s) / (self.span * self.span * self.span)
     }
@@ -30,7 +30,7 @@ impl Polynomial {
 /// The end of an interval no longer than `precision` in which `margin` falls below 0: between a time at which it is not
 /// and a later one at which it is, each with its margin. By the rule of false position, halved where that creeps
 /// (the Illinois method; Dowell, Jarratt, BIT 11, 168, 1971), and by bisection if that takes long.
-pub(super) fn fall_below_zero(margin: &impl Fn(f64) -> f64, good: (f64, f64), bad: (f64, f64), precision: f64) -> f64 {
+pub(crate) fn fall_below_zero(margin: &impl Fn(f64) -> f64, good: (f64, f64), bad: (f64, f64), precision: f64) -> f64 {
     let ((mut from, mut above), (mut to, mut below)) = (good, bad);
     let mut side = 0;
     for count in 0..80 {
@@ -56,7 +56,7 @@ pub(super) fn fall_below_zero(margin: &impl Fn(f64) -> f64, good: (f64, f64), ba
 
 /// ∛y for y ≥ 0 (∞ of ∞; 0 of what is too small for all its digits), by Newton's method from above: with + − × ÷ alone,
 /// the same on every machine.
-pub(super) fn cube_root(y: f64) -> f64 {
+pub(crate) fn cube_root(y: f64) -> f64 {
     if !(y >= f64::MIN_POSITIVE && y.is_finite()) {
         return if y < f64::MIN_POSITIVE { 0.0 } else { y };
     }

@@ -7,12 +7,12 @@
 
 use glam::DVec3;
 
-use super::curved::{Body, Closed, geometry};
-use super::impact::HOP;
+use crate::physics::events::curved::bodies::{Body, Closed, geometry};
+use crate::physics::events::impact::HOP;
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
 
 /// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
-pub(super) const ROUNDING: f64 = 256.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// A contact of a curved island that opens by no more than this share of the accelerations is looked at again after
 /// every step.
@@ -26,34 +26,33 @@ const DEAR: f64 = 10.0;
 
 /// An island after both complementarity problems.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Settled {
+pub(crate) struct Settled {
     /// Accelerations, m/s², by body; those of this instant if the motion is curved.
-    pub(super) a: Vec<DVec3>,
+    pub(crate) a: Vec<DVec3>,
     /// Impulses that stopped what still approached, N s, by contact.
-    pub(super) impulses: Vec<f64>,
+    pub(crate) impulses: Vec<f64>,
     /// Normal velocities before they were stopped, m/s, by contact.
-    pub(super) v_n: Vec<f64>,
+    pub(crate) v_n: Vec<f64>,
     /// Whether the impulse of a contact changed a velocity by more than what counts as closed.
-    pub(super) struck: Vec<bool>,
+    pub(crate) struck: Vec<bool>,
     /// Support forces, N, by contact.
-    pub(super) forces: Vec<f64>,
+    pub(crate) forces: Vec<f64>,
     /// What becomes of every contact.
-    pub(super) fate: Vec<Fate>,
+    pub(crate) fate: Vec<Fate>,
     /// Whether some contact that holds turns.
-    pub(super) curved: bool,
+    pub(crate) curved: bool,
     /// Whether both problems were solved to rounding.
-    pub(super) converged: bool,
+    pub(crate) converged: bool,
 }
 
 /// Stops what still approaches, and finds what holds and how the island moves. Changes the velocities.
 ///
 /// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
 /// clock or the coordinates can tell is closed.
-pub(super) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
+pub(crate) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
     let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
-    let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
-    let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+    let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
     let stopped = velocities(all, if only_fits(&resting, &velocity) { &[] } else { &resting });
     for (place, &body) in stopped.bodies.iter().enumerate() {
@@ -115,7 +114,7 @@ fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
 /// (`tick`, s) or the coordinates can tell.
-pub(super) fn closed_speed(body: &Body, tick: f64) -> f64 {
+pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
     let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
     tick * pull + ROUNDING * body.v.length() + (2.0 * pull * HOP * size).sqrt()
 }

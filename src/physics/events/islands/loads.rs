@@ -1,37 +1,24 @@
 //! What resting contacts carry: for whoever looks, and to tell a blow from rounding.
 
-use super::*;
-
-/// The support force of a resting contact, and what it has given since the frame began.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Load {
-    /// N, along the normal; of a curved rest that of its last settling.
-    force: f64,
-    /// Since when, s.
-    since: f64,
-    /// What was given in this frame before that, N s.
-    impulse: f64,
-}
-
-impl Load {
-    /// The impulse of the frame until `time` (s), N s.
-    fn given(&self, time: f64) -> f64 {
-        self.impulse + self.force * (time - self.since)
-    }
-}
+use super::resting::{Load, Rests};
+use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::events::detector::Detector;
+use crate::physics::events::engine::EventDriven;
+use crate::physics::log::Log;
+use crate::physics::model::Model;
 
 impl Rests {
     /// A frame begins at `time`, s.
-    pub(in crate::physics::exact) fn begin_frame(&mut self, time: f64) {
+    pub(crate) fn begin_frame(&mut self, time: f64) {
         for held in self.held.values_mut() {
             held.load = Load { since: time, impulse: 0.0, ..held.load };
         }
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// The contacts of an island carry these forces (N) from now on.
-    pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64]) {
+    pub(crate) fn carry(&mut self, keys: &[Key], forces: &[f64]) {
         let (now, start) = (self.now, self.frame.time);
         for (key, &force) in keys.iter().zip(forces) {
             let Some(held) = self.rests.held.get_mut(key) else { continue };
@@ -41,7 +28,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// What the load of a resting contact does to its two bodies, m/s²: with it they fall back together after a hop.
-    pub(super) fn pressure(&self, model: &Model, key: Key) -> f64 {
+    pub(crate) fn pressure(&self, model: &Model, key: Key) -> f64 {
         let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
         let force = self.rests.held.get(&key).map_or(0.0, |held| held.load.force);
         force * (model.inverse_masses[key.1] + other)
@@ -49,7 +36,7 @@ impl<D: Detector> Exact<D> {
 
     /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
     /// given in the frame.
-    pub(in crate::physics::exact) fn list_rests(&mut self, model: &Model, log: &mut Log, end: f64) {
+    pub(crate) fn list_rests(&mut self, model: &Model, log: &mut Log, end: f64) {
         let (start, met) = (self.frame.time, log.contacts.len());
         for (&key, held) in &self.rests.held {
             let impulse = Load { since: held.load.since.max(start), ..held.load }.given(end);

@@ -1,86 +1,97 @@
 //! Which contacts rest, and the islands they form: from one event of an island to the next.
 
-mod carried;
-mod settling;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc as Shared;
 
-use super::Exact;
-use super::bounce::Rub;
-use super::curved::{Arc, Body, Closed, On};
-use super::flight::Flight;
-use super::impact::{Meeting, ZENO};
-use super::rest::{Settled, settle};
-use crate::physics::contact::Key;
-use crate::physics::contact_time::{Part, Touch, touch, touch_part};
-use crate::physics::detector::Detector;
-use crate::physics::log::Log;
-use crate::physics::parts::{part_ahead, part_end};
-use crate::physics::support::{Fate, islands};
-use crate::physics::{Class, Kind, Model, Stall, State};
-use carried::Load;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::events::bounce::Rub;
+use crate::physics::events::curved::arc::Arc;
+use crate::physics::events::curved::bodies::{Body, Closed, On};
+use crate::physics::events::impact::Meeting;
+use crate::physics::events::trajectories::Flight;
+use crate::physics::model::Model;
+use crate::physics::state::State;
+use crate::physics::wall::Part;
+use crate::physics::wall_parts::part_ahead;
 
 /// No island.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// A contact that rests, or is about to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Held {
+pub(super) struct Held {
     /// The part of the wall it rests on; for pairs without meaning.
-    part: Part,
+    pub(super) part: Part,
     /// Whether its `rest` row has been written.
-    announced: bool,
+    pub(super) announced: bool,
     /// v_n when it was proposed, m/s.
-    v_n: f64,
+    pub(super) v_n: f64,
     /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
     /// again then, and no rest announced before.
-    settles_at: f64,
-    load: Load,
+    pub(super) settles_at: f64,
+    pub(super) load: Load,
     /// What bounces that were summed up have done by `settles_at`.
-    rub: Option<Rub>,
+    pub(super) rub: Option<Rub>,
+}
+
+/// The support force of a resting contact, and what it has given since the frame began.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Load {
+    /// N, along the normal; of a curved rest that of its last settling.
+    pub(super) force: f64,
+    /// Since when, s.
+    pub(super) since: f64,
+    /// What was given in this frame before that, N s.
+    pub(super) impulse: f64,
+}
+
+impl Load {
+    /// The impulse of the frame until `time` (s), N s.
+    pub(super) fn given(&self, time: f64) -> f64 {
+        self.impulse + self.force * (time - self.since)
+    }
 }
 
 /// Spheres connected by resting contacts, until something changes.
 #[derive(Debug, Clone)]
-struct Island {
+pub(super) struct Island {
     /// Ascending; the first leads: its entry in the queue stands for the island.
-    spheres: Vec<usize>,
+    pub(super) spheres: Vec<usize>,
     /// When its parabolas end, s.
-    end: f64,
-    curve: Option<Curve>,
+    pub(super) end: f64,
+    pub(super) curve: Option<Curve>,
 }
 
 /// A curved motion, and the chord parabola that stands for it now.
 #[derive(Debug, Clone)]
-struct Curve {
-    arc: Shared<Arc>,
-    contacts: Shared<[Contact]>,
+pub(super) struct Curve {
+    pub(super) arc: Shared<Arc>,
+    pub(super) contacts: Shared<[IslandContact]>,
     /// Where on the arc the chord begins, s.
-    offset: f64,
+    pub(super) offset: f64,
     /// When the chord began, s; infinite once the spheres have been brought off it.
-    from: f64,
+    pub(super) from: f64,
     /// Its length, s.
-    length: f64,
+    pub(super) length: f64,
     /// Whether a contact lets go or changes its part at the end.
-    changes: bool,
+    pub(super) changes: bool,
 }
 
 /// A contact of an island: its sphere by its place there, and what it touches.
 #[derive(Debug, Clone, Copy)]
-struct Contact {
-    a: usize,
-    other: Other,
+pub(super) struct IslandContact {
+    pub(super) a: usize,
+    pub(super) other: Other,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Other {
+pub(super) enum Other {
     Wall(usize, Part),
     Place(usize),
 }
 
-impl Contact {
-    fn closed(self, model: &Model) -> Closed<'_> {
+impl IslandContact {
+    pub(super) fn closed(self, model: &Model) -> Closed<'_> {
         let on = match self.other {
             Other::Wall(wall, part) => On::Wall(&model.faces[wall], part),
             Other::Place(place) => On::Body(place),
@@ -89,19 +100,19 @@ impl Contact {
     }
 }
 
-fn closed<'a>(model: &'a Model, contacts: &[Contact]) -> Vec<Closed<'a>> {
+pub(super) fn closed<'a>(model: &'a Model, contacts: &[IslandContact]) -> Vec<Closed<'a>> {
     contacts.iter().map(|contact| contact.closed(model)).collect()
 }
 
 impl Curve {
     /// The motion of bodies from now on.
-    fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<Contact>, now: f64) -> Curve {
+    pub(super) fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<IslandContact>, now: f64) -> Curve {
         let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts)));
         Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
     /// The next chord, on this arc or on the one after it.
-    fn next(self, model: &Model, now: f64) -> Curve {
+    pub(super) fn next(self, model: &Model, now: f64) -> Curve {
         let offset = self.offset + self.length;
         if offset < self.arc.length {
             return Curve { offset, from: now, ..self }.chord();
@@ -111,7 +122,7 @@ impl Curve {
     }
 
     /// Lays a chord from `offset` on.
-    fn chord(mut self) -> Curve {
+    pub(super) fn chord(mut self) -> Curve {
         let left = self.arc.length - self.offset;
         self.length = self.arc.chord(self.offset);
         self.changes = self.arc.changes && self.length >= left;
@@ -119,42 +130,42 @@ impl Curve {
     }
 
     /// Ends the chord after `time` (s), if that is sooner, to have the island settled anew.
-    fn cut(self, time: f64) -> Curve {
+    pub(super) fn cut(self, time: f64) -> Curve {
         if time < self.length { Curve { length: time, changes: true, ..self } } else { self }
     }
 
     /// The spheres `time` (s) after the chord's beginning, read from the arc.
-    fn at(&self, time: f64) -> Vec<Body> {
+    pub(super) fn at(&self, time: f64) -> Vec<Body> {
         self.arc.at(self.offset + time.min(self.length))
     }
 
     /// The same, integrated.
-    fn real(&self, model: &Model, time: f64) -> Vec<Body> {
+    pub(super) fn real(&self, model: &Model, time: f64) -> Vec<Body> {
         self.arc.real(self.offset + time.min(self.length), &closed(model, &self.contacts))
     }
 }
 
 /// A chord of this frame that is over: its spheres, and until when it was followed, s.
 #[derive(Debug, Clone)]
-struct Past {
-    spheres: Vec<usize>,
-    curve: Curve,
-    until: f64,
+pub(super) struct Past {
+    pub(super) spheres: Vec<usize>,
+    pub(super) curve: Curve,
+    pub(super) until: f64,
 }
 
 /// All resting contacts.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Rests {
-    held: BTreeMap<Key, Held>,
+pub(crate) struct Rests {
+    pub(super) held: BTreeMap<Key, Held>,
     /// Contacts by sphere; empty until something rests.
-    of: Vec<Vec<Key>>,
-    islands: Vec<Option<Island>>,
-    vacant: Vec<u32>,
-    island_of: Vec<u32>,
+    pub(super) of: Vec<Vec<Key>>,
+    pub(super) islands: Vec<Option<Island>>,
+    pub(super) vacant: Vec<u32>,
+    pub(super) island_of: Vec<u32>,
     /// Spheres whose islands must be settled before the clock goes on.
-    dirty: Vec<usize>,
+    pub(super) dirty: Vec<usize>,
     /// In the order of their ends.
-    past: Vec<Past>,
+    pub(super) past: Vec<Past>,
     curves: usize,
     curved_since: f64,
     curved_time: f64,
@@ -163,35 +174,35 @@ pub(super) struct Rests {
 impl Rests {
     /// Whether nothing rests.
     #[inline]
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.of.is_empty()
     }
 
     /// Whether this contact rests.
     #[inline]
-    pub(super) fn holds(&self, key: Key) -> bool {
+    pub(crate) fn holds(&self, key: Key) -> bool {
         !self.of.is_empty() && !self.of[key.1].is_empty() && self.held.contains_key(&key)
     }
 
     /// The contacts of sphere `i` that rest.
-    pub(super) fn of(&self, i: usize) -> &[Key] {
+    pub(crate) fn of(&self, i: usize) -> &[Key] {
         self.of.get(i).map_or(&[], Vec::as_slice)
     }
 
     /// How many contacts of sphere `i` rest.
-    pub(super) fn count(&self, i: usize) -> usize {
+    pub(crate) fn count(&self, i: usize) -> usize {
         self.of.get(i).map_or(0, Vec::len)
     }
 
     /// Whether islands wait to be settled.
     #[inline]
-    pub(super) fn is_dirty(&self) -> bool {
+    pub(crate) fn is_dirty(&self) -> bool {
         !self.dirty.is_empty()
     }
 
     /// When the island led by sphere `i` ends its parabolas, s; infinite if it leads none.
     #[inline]
-    pub(super) fn end_led_by(&self, i: usize) -> f64 {
+    pub(crate) fn end_led_by(&self, i: usize) -> f64 {
         match self.island(i) {
             Some(island) if island.spheres[0] == i => island.end,
             _ => f64::INFINITY,
@@ -200,34 +211,34 @@ impl Rests {
 
     /// When the parabola of sphere `i` ends with its island's, s: all plans of its spheres are made anew then.
     #[inline]
-    pub(super) fn end_of(&self, i: usize) -> f64 {
+    pub(crate) fn end_of(&self, i: usize) -> f64 {
         self.island(i).map_or(f64::INFINITY, |island| island.end)
     }
 
     #[inline]
-    fn island(&self, i: usize) -> Option<&Island> {
+    pub(super) fn island(&self, i: usize) -> Option<&Island> {
         let &number = self.island_of.get(i)?;
         self.islands.get(number as usize)?.as_ref()
     }
 
     /// Time spent in curved rest until `now`, s.
-    pub(super) fn curved_time(&self, now: f64) -> f64 {
+    pub(crate) fn curved_time(&self, now: f64) -> f64 {
         self.curved_time + if self.curves > 0 { now - self.curved_since } else { 0.0 }
     }
 
     /// Counts the time of curved rest from `now` (s) on.
-    pub(super) fn forget_curved_time(&mut self, now: f64) {
+    pub(crate) fn forget_curved_time(&mut self, now: f64) {
         (self.curved_time, self.curved_since) = (0.0, now);
     }
 
-    fn count_curves(&mut self, now: f64, change: isize) {
+    pub(super) fn count_curves(&mut self, now: f64, change: isize) {
         self.curved_time = self.curved_time(now);
         self.curved_since = now;
         self.curves = self.curves.saturating_add_signed(change);
     }
 
     /// A contact may rest from now on: the island it belongs to will decide.
-    pub(super) fn propose(&mut self, model: &Model, flight: &Flight, now: f64, meeting: &Meeting, bounces_until: f64) {
+    pub(crate) fn propose(&mut self, model: &Model, flight: &Flight, now: f64, meeting: &Meeting, bounces_until: f64) {
         let (kind, a, b) = meeting.key;
         let part = match kind {
             Kind::Wall => {
@@ -259,7 +270,7 @@ impl Rests {
     }
 
     /// A contact rests no longer; returns whether its rest had been announced.
-    fn drop(&mut self, key: Key) -> bool {
+    pub(super) fn drop(&mut self, key: Key) -> bool {
         let (kind, a, b) = key;
         self.of[a].retain(|&other| other != key);
         if kind == Kind::Pair {
@@ -269,21 +280,21 @@ impl Rests {
     }
 
     /// Has bounces that were summed up act on a contact when they are over.
-    pub(super) fn rub(&mut self, key: Key, rub: Rub) {
+    pub(crate) fn rub(&mut self, key: Key, rub: Rub) {
         if let Some(held) = self.held.get_mut(&key) {
             held.rub = Some(rub);
         }
     }
 
     /// Holds a contact that opens until `time` (s) all the same.
-    fn hold_until(&mut self, key: Key, time: f64) {
+    pub(super) fn hold_until(&mut self, key: Key, time: f64) {
         if let Some(held) = self.held.get_mut(&key) {
             held.settles_at = time;
         }
     }
 
     /// The spheres of every island that a dirty sphere belongs or is connected to, ascending.
-    fn take_dirty(&mut self) -> Vec<usize> {
+    pub(super) fn take_dirty(&mut self) -> Vec<usize> {
         let mut found = BTreeSet::new();
         let mut open = std::mem::take(&mut self.dirty);
         while let Some(i) = open.pop() {
@@ -303,7 +314,7 @@ impl Rests {
         found.into_iter().collect()
     }
 
-    fn dissolve(&mut self, i: usize, now: f64) {
+    pub(super) fn dissolve(&mut self, i: usize, now: f64) {
         let number = self.island_of[i];
         if number == NONE {
             return;
@@ -319,7 +330,7 @@ impl Rests {
         }
     }
 
-    fn found(&mut self, island: Island, now: f64) {
+    pub(super) fn found(&mut self, island: Island, now: f64) {
         if island.curve.is_some() {
             self.count_curves(now, 1);
         }
@@ -334,7 +345,7 @@ impl Rests {
     }
 
     /// Puts the spheres of curved islands where they really are, in a state of the last frame: their lines are chords.
-    pub(super) fn bend(&self, model: &Model, state: &mut State) {
+    pub(crate) fn bend(&self, model: &Model, state: &mut State) {
         let over = self.past.iter().filter(|past| state.t < past.until).map(|past| (&past.spheres, &past.curve));
         let current = self.islands.iter().flatten();
         let current = current.filter_map(|island| Some((&island.spheres, island.curve.as_ref()?)));
@@ -348,20 +359,20 @@ impl Rests {
     }
 
     /// Remembers a chord that was followed until `now` (s), for states read within the frame.
-    fn keep(&mut self, spheres: &[usize], curve: &Curve, now: f64) {
+    pub(super) fn keep(&mut self, spheres: &[usize], curve: &Curve, now: f64) {
         if curve.from < now {
             self.past.push(Past { spheres: spheres.to_vec(), curve: curve.clone(), until: now });
         }
     }
 
     /// From here on, frames before are forgotten.
-    pub(super) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.past.clear();
     }
 }
 
 impl Rests {
-    fn island_mut(&mut self, i: usize) -> Option<&mut Island> {
+    pub(super) fn island_mut(&mut self, i: usize) -> Option<&mut Island> {
         let number = *self.island_of.get(i)?;
         self.islands.get_mut(number as usize)?.as_mut()
     }

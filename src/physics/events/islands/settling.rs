@@ -1,8 +1,21 @@
 //! What an event does to the islands: spheres brought up to date, contacts released, islands settled anew.
 
-use super::*;
-use crate::physics::exact::class::SMALL_HOP;
-use crate::physics::exact::rest::ROUNDING;
+use std::collections::BTreeSet;
+
+use super::equilibrium::{ROUNDING, Settled, settle};
+use super::resting::{Curve, Held, Island, IslandContact, Other, closed};
+use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::events::curved::bodies::Body;
+use crate::physics::events::detector::Detector;
+use crate::physics::events::engine::EventDriven;
+use crate::physics::events::impact::{Meeting, ZENO};
+use crate::physics::events::rest_criteria::SMALL_HOP;
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::state::Stall;
+use crate::physics::support::{Fate, islands};
+use crate::physics::wall::{Part, Touch, touch, touch_part};
+use crate::physics::wall_parts::{part_ahead, part_end};
 
 /// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
 /// part by more than rounding, too short to be seen.
@@ -15,9 +28,9 @@ const SHARED_POINT: f64 = 1e-8;
 /// Gap to a wall at such a point that counts as none, relative to the coordinates: 64 ulp.
 const SHARED_GAP: f64 = 64.0 * f64::EPSILON;
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
-    pub(in crate::physics::exact) fn bring(&mut self, model: &Model, i: usize) {
+    pub(crate) fn bring(&mut self, model: &Model, i: usize) {
         let now = self.now;
         let island = self.rests.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now));
         let Some(Island { spheres, curve: Some(curve), .. }) = island else {
@@ -36,7 +49,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
-    pub(in crate::physics::exact) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
+    pub(crate) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
         if self.rests.is_empty() || self.rests.of[i].is_empty() {
             return;
         }
@@ -65,7 +78,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// The parabolas of an island end: a foot comes to the end of its part, an arc or its chord is over.
-    pub(in crate::physics::exact) fn end_parabola(&mut self, model: &Model, leader: usize) {
+    pub(crate) fn end_parabola(&mut self, model: &Model, leader: usize) {
         let now = self.now;
         let Some(island) = self.rests.island(leader) else { return };
         let spheres = island.spheres.clone();
@@ -119,7 +132,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// No contact is left at this instant: decides what holds, island by island.
-    pub(in crate::physics::exact) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
+    pub(crate) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
         let spheres = self.rests.take_dirty();
         for &i in &spheres {
             self.bring(model, i);
@@ -265,7 +278,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
-    fn island_of(&self, model: &Model, keys: &[Key]) -> (Vec<usize>, Vec<Body>, Vec<Contact>) {
+    fn island_of(&self, model: &Model, keys: &[Key]) -> (Vec<usize>, Vec<Body>, Vec<IslandContact>) {
         let named = |&(kind, a, b): &Key| [Some(a), (kind == Kind::Pair).then_some(b)];
         let spheres: BTreeSet<usize> = keys.iter().flat_map(named).flatten().collect();
         let spheres: Vec<usize> = spheres.into_iter().collect();
@@ -274,7 +287,7 @@ impl<D: Detector> Exact<D> {
             let (kind, a, b) = key;
             let part = self.rests.held.get(&key).map_or(Part::Face, |held| held.part);
             let other = if kind == Kind::Wall { Other::Wall(b, part) } else { Other::Place(place(b)) };
-            Contact { a: place(a), other }
+            IslandContact { a: place(a), other }
         };
         let contacts = keys.iter().map(contact).collect();
         let bodies = spheres.iter().map(|&i| self.body(model, i)).collect();
@@ -282,7 +295,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Sphere `i`, whose line is at the present, as a body of an island.
-    pub(in crate::physics::exact) fn body(&self, model: &Model, i: usize) -> Body {
+    pub(crate) fn body(&self, model: &Model, i: usize) -> Body {
         Body {
             x: self.flight.line(i).x,
             v: self.flight.line(i).v,
@@ -314,7 +327,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// When the first foot of an island on parabolas comes to the end of its part, s.
-    fn parts_end(&self, model: &Model, spheres: &[usize], contacts: &[Contact]) -> f64 {
+    fn parts_end(&self, model: &Model, spheres: &[usize], contacts: &[IslandContact]) -> f64 {
         let mut first = f64::INFINITY;
         for contact in contacts {
             if let Other::Wall(wall, part) = contact.other {

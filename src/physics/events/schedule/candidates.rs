@@ -1,49 +1,49 @@
 //! Who is near a sphere.
 
-use super::lanes::{FOURS, Four};
+use super::simd::{FOURS, Four};
 
 /// What the 27 places around a sphere hold without spilling is fewer than this.
-pub(super) const MOST_NEAR: usize = 128;
+pub(crate) const MOST_NEAR: usize = 128;
 
 /// Room for it, one more place and padding to four.
-pub(super) const ROOM: usize = MOST_NEAR + 8;
+pub(crate) const ROOM: usize = MOST_NEAR + 8;
 
 /// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
 #[derive(Debug, Clone)]
-pub(super) struct Near {
-    pub(super) seats: Vec<u32>,
-    pub(super) count: usize,
+pub(crate) struct Near {
+    pub(crate) seats: Vec<u32>,
+    pub(crate) count: usize,
     /// Room to look at them four by four.
-    pub(super) fours: Box<[Four; FOURS]>,
+    pub(crate) fours: Box<[Four; FOURS]>,
 }
 
 impl Near {
     /// Nobody.
-    pub(super) fn nobody() -> Near {
+    pub(crate) fn nobody() -> Near {
         Near { seats: vec![0; ROOM], count: 0, fours: Box::new([Four::NEVER; FOURS]) }
     }
 
     /// Who is near.
     #[inline]
-    pub(super) fn seats(&self) -> &[u32] {
+    pub(crate) fn seats(&self) -> &[u32] {
         &self.seats[..self.count]
     }
 
     /// The same made up to fours by `seat`, and the room to look at them.
     #[inline]
-    pub(super) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four; FOURS]) {
+    pub(crate) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four; FOURS]) {
         self.seats[self.count..self.count + 4].fill(seat as u32);
         (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
     }
 
     /// All of so many seats.
-    pub(super) fn everybody(&mut self, seats: usize) {
+    pub(crate) fn everybody(&mut self, seats: usize) {
         self.seats.resize(self.seats.len().max(seats + 5), 0);
         (0_u32..).zip(&mut self.seats[..seats]).for_each(|(seat, place)| *place = seat);
         self.count = seats;
     }
 
-    pub(super) fn push(&mut self, seat: u32) {
+    pub(crate) fn push(&mut self, seat: u32) {
         self.seats[self.count] = seat;
         self.count += 1;
         if self.count + 5 > self.seats.len() {

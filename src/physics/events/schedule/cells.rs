@@ -10,14 +10,15 @@
 
 use glam::DVec3;
 
-use super::lanes::Lanes;
-use super::near::{MOST_NEAR, Near, ROOM};
-use crate::physics::contact_time::Path;
+use super::candidates::{MOST_NEAR, Near, ROOM};
+use super::simd::Lanes;
 use crate::physics::model::Model;
+use crate::physics::path::Path;
 use crate::roots::quadratic_fall;
-pub(super) use layout::Layout;
 
-pub(super) mod layout;
+pub(crate) use super::cells::layout::Layout;
+
+pub(crate) mod layout;
 mod walls;
 
 /// Cubes are not counted beyond this: the outermost reach to infinity, where coordinates could not tell them apart.
@@ -42,32 +43,32 @@ const BORDER: u32 = 1 << 28;
 const NOBODY: u32 = BORDER - 1;
 
 /// A cube.
-pub(super) type Cube = [i32; 3];
+pub(crate) type Cube = [i32; 3];
 
 /// Where a sphere is: its cube, and that cube's place in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Spot {
-    pub(super) cube: Cube,
-    pub(super) place: u32,
+pub(crate) struct Spot {
+    pub(crate) cube: Cube,
+    pub(crate) place: u32,
 }
 
 impl Spot {
     /// In no cube.
-    pub(super) const LOOSE: Spot = Spot { cube: [0; 3], place: u32::MAX };
+    pub(crate) const LOOSE: Spot = Spot { cube: [0; 3], place: u32::MAX };
 
     #[inline]
-    pub(super) fn is_loose(self) -> bool {
+    pub(crate) fn is_loose(self) -> bool {
         self.place == u32::MAX
     }
 }
 
 /// A sphere leaves its cube: the axis, and +1 or −1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Way {
+pub(crate) struct Way {
     /// 0, 1 or 2.
-    pub(super) axis: u8,
+    pub(crate) axis: u8,
     /// +1 or −1.
-    pub(super) sign: i8,
+    pub(crate) sign: i8,
 }
 
 /// What one place of the table holds: seats in slots, and a mark that says how many, whether walls are near, and who was
@@ -98,7 +99,7 @@ impl Place {
 
 /// The table of cubes.
 #[derive(Debug, Clone)]
-pub(super) struct Cells {
+pub(crate) struct Cells {
     origin: DVec3,
     edge: f64,
     /// The table's size along each axis.
@@ -121,7 +122,7 @@ pub(super) struct Cells {
 
 impl Cells {
     /// An empty table, and the walls in every cube from which a sphere of it touches them.
-    pub(super) fn new(model: &Model, layout: Layout) -> Cells {
+    pub(crate) fn new(model: &Model, layout: Layout) -> Cells {
         let Layout { origin, edge, size, widest } = layout;
         let mut cells = Cells {
             origin,
@@ -142,7 +143,7 @@ impl Cells {
     }
 
     /// How it was laid out.
-    pub(super) fn layout(&self) -> Layout {
+    pub(crate) fn layout(&self) -> Layout {
         Layout { origin: self.origin, edge: self.edge, size: self.size, widest: self.widest }
     }
 
@@ -157,7 +158,7 @@ impl Cells {
     }
 
     /// Fills the table with spheres in these places, seat by seat, and with no others.
-    pub(super) fn fill(&mut self, places: impl ExactSizeIterator<Item = u32>) {
+    pub(crate) fn fill(&mut self, places: impl ExactSizeIterator<Item = u32>) {
         self.places.iter_mut().for_each(Place::empty);
         self.loose.clear();
         self.spilled = 0;
@@ -171,7 +172,7 @@ impl Cells {
     }
 
     /// Enters a seat, one of so many, in a place or among the loose ones.
-    pub(super) fn enter(&mut self, seat: usize, place: u32, seats: usize) {
+    pub(crate) fn enter(&mut self, seat: usize, place: u32, seats: usize) {
         match (Spot { place, ..Spot::default() }).is_loose() {
             true => self.loose.push(seat as u32),
             false => self.link(seat, place, seats),
@@ -179,7 +180,7 @@ impl Cells {
     }
 
     /// Takes a seat from where it was entered.
-    pub(super) fn leave(&mut self, seat: usize, place: u32) {
+    pub(crate) fn leave(&mut self, seat: usize, place: u32) {
         match (Spot { place, ..Spot::default() }).is_loose() {
             true => self.loose.retain(|&other| other as usize != seat),
             false => self.unlink(seat as u32, place),
@@ -190,7 +191,7 @@ impl Cells {
     /// those that came within reach, since the ones in no cube have been looked at before. A sphere that is itself in no
     /// cube may meet all.
     #[inline(always)]
-    pub(super) fn look(&self, spot: Spot, way: Option<Way>, near: &mut Near, seats: usize) {
+    pub(crate) fn look(&self, spot: Spot, way: Option<Way>, near: &mut Near, seats: usize) {
         match way {
             _ if spot.is_loose() => near.everybody(seats),
             Some(way) => self.ahead(spot, way, near),
@@ -202,23 +203,23 @@ impl Cells {
     }
 
     /// Whether so many share places that looking around costs more than it should.
-    pub(super) fn is_crowded(&self, seats: usize) -> bool {
+    pub(crate) fn is_crowded(&self, seats: usize) -> bool {
         8 * self.spilled > seats
     }
 
     /// The largest radius of a sphere in a cube, m.
-    pub(super) fn widest(&self) -> f64 {
+    pub(crate) fn widest(&self) -> f64 {
         self.widest
     }
 
     /// How wide a cube is, m.
-    pub(super) fn edge(&self) -> f64 {
+    pub(crate) fn edge(&self) -> f64 {
         self.edge
     }
 
     /// Walls near a cube, ascending.
     #[inline]
-    pub(super) fn walls_near(&self, spot: Spot) -> &[u32] {
+    pub(crate) fn walls_near(&self, spot: Spot) -> &[u32] {
         let place = spot.place as usize;
         if self.places[place].0[SLOTS] & WALLS == 0 {
             return &[];
@@ -228,7 +229,7 @@ impl Cells {
 
     /// The spheres in the 27 cubes around a cube.
     #[inline]
-    pub(super) fn around(&self, spot: Spot, near: &mut Near) {
+    pub(crate) fn around(&self, spot: Spot, near: &mut Near) {
         if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
             return self.around_border(spot.cube, near);
         }
@@ -240,7 +241,7 @@ impl Cells {
 
     /// The spheres in the nine cubes that came within reach when a sphere went `way` into this cube.
     #[inline]
-    pub(super) fn ahead(&self, spot: Spot, way: Way, near: &mut Near) {
+    pub(crate) fn ahead(&self, spot: Spot, way: Way, near: &mut Near) {
         if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
             return self.ahead_border(spot.cube, way, near);
         }
@@ -311,7 +312,7 @@ impl Cells {
 
     /// Asks for the places around a cube: they will be read soon.
     #[inline]
-    pub(super) fn fetch_around(&self, spot: Spot, lanes: Lanes) {
+    pub(crate) fn fetch_around(&self, spot: Spot, lanes: Lanes) {
         let [_, y, z] = self.strides;
         let first = spot.place.wrapping_sub(1 + y + z);
         for row in [0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first.wrapping_add(y + z))).as_flattened() {
@@ -324,7 +325,7 @@ impl Cells {
 
     /// When a sphere on `path` leaves its cube, s from now, and where to.
     #[inline]
-    pub(super) fn crossing(&self, cube: Cube, path: &Path) -> (f64, Way) {
+    pub(crate) fn crossing(&self, cube: Cube, path: &Path) -> (f64, Way) {
         if path.a == DVec3::ZERO && cube.iter().all(|index| index.abs() < OUTERMOST) {
             return self.straight_crossing(cube, path);
         }
@@ -372,7 +373,7 @@ impl Cells {
 
     /// The sphere at a seat goes `way` from its cube: by the index, since a recomputed position may disagree with the
     /// event. Returns where it is then.
-    pub(super) fn cross(&mut self, seat: usize, spot: Spot, way: Way, seats: usize) -> Spot {
+    pub(crate) fn cross(&mut self, seat: usize, spot: Spot, way: Way, seats: usize) -> Spot {
         let next = self.beyond(spot, way);
         self.unlink(seat as u32, spot.place);
         self.link(seat, next.place, seats);
@@ -381,7 +382,7 @@ impl Cells {
 
     /// The cube that a sphere comes to when it goes `way`.
     #[inline]
-    pub(super) fn beyond(&self, spot: Spot, way: Way) -> Spot {
+    pub(crate) fn beyond(&self, spot: Spot, way: Way) -> Spot {
         let (axis, mut cube) = (way.axis as usize % 3, spot.cube);
         cube[axis] += i32::from(way.sign);
         let border = self.places[spot.place as usize].0[SLOTS] & BORDER != 0;
@@ -449,7 +450,7 @@ impl Cells {
     }
 
     /// Where a point (m) is.
-    pub(super) fn spot(&self, x: DVec3) -> Spot {
+    pub(crate) fn spot(&self, x: DVec3) -> Spot {
         let cube = self.cube_of(x);
         Spot { cube, place: self.place(cube) }
     }
@@ -468,6 +469,6 @@ fn straight_exit(left: f64, v: f64) -> Option<f64> {
 }
 
 /// Orders cubes so that neighbours are near: 4 × 4 × 4 of them, then the next.
-pub(super) fn nearness([x, y, z]: Cube) -> [i32; 6] {
+pub(crate) fn nearness([x, y, z]: Cube) -> [i32; 6] {
     [z >> 2, y >> 2, x >> 2, z & 3, y & 3, x & 3]
 }

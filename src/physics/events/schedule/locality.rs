@@ -1,12 +1,12 @@
 //! Who sits where: neighbours side by side, so that what an event reads lies together.
 
-use super::Exact;
 use super::cells::nearness;
-use crate::physics::detector::Detector;
+use crate::physics::events::detector::Detector;
+use crate::physics::events::engine::EventDriven;
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Seats the spheres by their cubes.
-    pub(super) fn reseat(&mut self) {
+    pub(crate) fn reseat(&mut self) {
         let flight = &self.flight;
         let key = |seat: usize| {
             let record = &flight.records[seat];
@@ -33,9 +33,10 @@ impl<D: Detector> Exact<D> {
 
 #[cfg(test)]
 mod tests {
-    use crate::physics::exact::{Exact, Roots};
+    use crate::physics::exact::Exact;
     use crate::physics::log::Log;
-    use crate::physics::{Engine, Method, Model, Progress, Scene, Settings, Until};
+    use crate::physics::method::{Engine, Progress, Until};
+    use crate::physics::model::{Method, Model, Scene, Settings};
 
     /// A hundred spheres in a box, with walls that open no way out, crowded enough that most meet.
     fn gas() -> Scene {
@@ -51,7 +52,7 @@ mod tests {
         let model = Model::new(&gas());
         let settings = Settings { method: Method::Exact, dt: 0.01, tolerance: 1e-3 };
         let mut log = Log { recording: true, ..Log::default() };
-        let mut still = Exact::<Roots>::begin(&model, settings, model.initial.clone(), &mut log);
+        let mut still = Exact::begin(&model, settings, model.initial.clone(), &mut log);
         let (mut moved, mut moved_log) = (still.clone(), log.clone());
         for round in 0..200_u64 {
             assert_eq!(still.advance(&model, &mut log, Until::Time(f64::INFINITY), 50), Progress::Yielded);

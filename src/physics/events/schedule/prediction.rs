@@ -2,38 +2,39 @@
 
 use glam::DVec3;
 
-use super::Exact;
+use super::candidates::Near;
 use super::cells::Way;
-use super::lanes::{Eye, Four, MOST};
-use super::near::Near;
-use crate::physics::contact::Key;
-use crate::physics::contact_time::{Path, straight_pair};
-use crate::physics::detector::{Detector, Due, Span};
-use crate::physics::{Kind, Model};
+use super::simd::{Eye, Four, MOST};
+use crate::physics::contact::{Key, Kind};
+use crate::physics::contact_time::straight_pair;
+use crate::physics::events::detector::{Detector, Due, Span};
+use crate::physics::events::engine::EventDriven;
+use crate::physics::model::Model;
+use crate::physics::path::Path;
 
 /// The next event of a sphere as predicted with what was known then. One is kept per sphere: whichever of two partners
 /// was predicted last knows of their contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Plan {
+pub(crate) struct Plan {
     /// When it touches something, s; infinite if never.
-    pub(super) contact: f64,
+    pub(crate) contact: f64,
     /// When it leaves its cube, s.
-    pub(super) crossing: f64,
+    pub(crate) crossing: f64,
     /// The wall or the other sphere.
-    pub(super) other: u32,
+    pub(crate) other: u32,
     /// How often the other sphere's motion had changed by then: if it has since, the plan is stale.
-    pub(super) stamp: u32,
+    pub(crate) stamp: u32,
     /// Wall or pair.
-    pub(super) kind: Kind,
+    pub(crate) kind: Kind,
     /// Whether they touch then; else it is time to look again.
-    pub(super) sure: bool,
+    pub(crate) sure: bool,
     /// Into which cube.
-    pub(super) way: Way,
+    pub(crate) way: Way,
 }
 
 impl Plan {
     /// Nothing happens.
-    pub(super) const IDLE: Plan = Plan {
+    pub(crate) const IDLE: Plan = Plan {
         contact: f64::INFINITY,
         crossing: f64::INFINITY,
         other: 0,
@@ -45,31 +46,31 @@ impl Plan {
 }
 
 /// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
-pub(super) type Rank = (u8, usize, usize);
+pub(crate) type Rank = (u8, usize, usize);
 
 /// What comes next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Sort {
+pub(crate) enum Sort {
     Contact,
     /// An island's parabolas end.
     End,
     Crossing,
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Predicts sphere `i` afresh from the present on.
-    pub(super) fn predict(&mut self, model: &Model, i: usize) {
+    pub(crate) fn predict(&mut self, model: &Model, i: usize) {
         self.predict_at(model, self.flight.seat(i));
     }
 
     /// The same for the sphere at a seat.
-    pub(super) fn predict_at(&mut self, model: &Model, seat: usize) {
+    pub(crate) fn predict_at(&mut self, model: &Model, seat: usize) {
         self.foresee(model, seat);
         self.schedule(seat);
     }
 
     /// The same where the event that is handled was entered for this seat, and everything else is predicted already.
-    pub(super) fn predict_first(&mut self, model: &Model, seat: usize) {
+    pub(crate) fn predict_first(&mut self, model: &Model, seat: usize) {
         self.foresee(model, seat);
         self.schedule_first(seat);
     }
@@ -93,11 +94,11 @@ impl<D: Detector> Exact<D> {
     }
 
     /// The sphere at a seat crosses into the next cube: what it was to meet stays, nine cubes and their walls are new.
-    pub(super) fn cross(&mut self, model: &Model, seat: usize) {
+    pub(crate) fn cross(&mut self, model: &Model, seat: usize) {
         let path = self.flight.path_from(seat, self.now);
         self.until = self.rests.end_of(self.flight.sphere(seat)).next_up();
         let seats = self.flight.records.len();
-        let Exact { cells: Some(cells), flight, .. } = self else { return };
+        let EventDriven { cells: Some(cells), flight, .. } = self else { return };
         let record = &mut flight.records[seat];
         let mut plan = record.plan;
         record.spot = cells.cross(seat, record.spot, plan.way, seats);
@@ -134,7 +135,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Enters the earliest of a sphere's plan and its island's end into the queue.
-    pub(super) fn schedule(&mut self, seat: usize) {
+    pub(crate) fn schedule(&mut self, seat: usize) {
         let due = self.due(seat);
         self.queue.set(seat, due);
         self.next = None;
@@ -159,7 +160,7 @@ impl<D: Detector> Exact<D> {
 
     /// What the entry of a seat at `time` stands for.
     #[inline]
-    pub(super) fn sort(&self, time: f64, seat: usize) -> Sort {
+    pub(crate) fn sort(&self, time: f64, seat: usize) -> Sort {
         if time == f64::INFINITY {
             // nothing ever happens, perhaps because there is nobody
             return Sort::Crossing;
@@ -175,7 +176,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Its place in the order of events.
-    pub(super) fn rank(&self, time: f64, seat: usize) -> Rank {
+    pub(crate) fn rank(&self, time: f64, seat: usize) -> Rank {
         let (record, i) = (&self.flight.records[seat], self.flight.sphere(seat));
         match self.sort(time, seat) {
             Sort::Contact => {
@@ -189,7 +190,7 @@ impl<D: Detector> Exact<D> {
 
     /// Which contact a plan for a seat means.
     #[inline]
-    pub(super) fn key(&self, seat: usize, plan: &Plan) -> Key {
+    pub(crate) fn key(&self, seat: usize, plan: &Plan) -> Key {
         let i = self.flight.sphere(seat);
         match plan.kind {
             Kind::Wall => (Kind::Wall, i, plan.other as usize),

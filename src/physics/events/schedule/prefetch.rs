@@ -5,12 +5,12 @@
 //! kept, and each is visited three times before it is due. The list is a guess, since events change what follows: it
 //! decides when memory is read, and nothing else.
 
-use super::Exact;
+use super::candidates::Near;
 use super::cells::{Cells, Spot, Way};
-use super::flight::Record;
-use super::near::Near;
-use crate::physics::Kind;
-use crate::physics::detector::Detector;
+use crate::physics::contact::Kind;
+use crate::physics::events::detector::Detector;
+use crate::physics::events::engine::EventDriven;
+use crate::physics::events::trajectories::Record;
 
 /// Fewer spheres are in a fast cache anyhow.
 const MANY: usize = 20_000;
@@ -25,7 +25,7 @@ const LISTED: usize = 64;
 
 /// What is known about what comes next.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Scout {
+pub(crate) struct Scout {
     /// Time, s, and seat.
     list: Vec<(f64, u32)>,
     /// Events handled since it was made.
@@ -52,10 +52,10 @@ fn partner(record: &Record) -> Option<usize> {
     (!crosses(record) && record.plan.kind == Kind::Pair).then_some(record.plan.other as usize)
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Called at every event.
     #[inline]
-    pub(super) fn scout(&mut self) {
+    pub(crate) fn scout(&mut self) {
         if self.flight.records.len() >= MANY && self.cells.is_some() {
             self.look_ahead();
         }
@@ -66,7 +66,9 @@ impl<D: Detector> Exact<D> {
         if self.scout.at + PLACES >= self.scout.list.len().max(2 * PLACES) {
             self.list_events();
         }
-        let Exact { cells: Some(cells), flight, scout: Scout { list, at, near, .. }, lanes, .. } = self else { return };
+        let EventDriven { cells: Some(cells), flight, scout: Scout { list, at, near, .. }, lanes, .. } = self else {
+            return;
+        };
         let records = &flight.records[..];
         let near = near.get_or_insert_with(|| Box::new(Near::nobody()));
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
@@ -109,7 +111,7 @@ impl<D: Detector> Exact<D> {
     }
 
     fn list_events(&mut self) {
-        let Exact { scout: Scout { list, at, span, blocks, .. }, .. } = self;
+        let EventDriven { scout: Scout { list, at, span, blocks, .. }, .. } = self;
         list.clear();
         *at = 0;
         self.queue.until(self.now + *span, 4 * LISTED, list, blocks);

@@ -5,7 +5,7 @@
 //! time, so that the first of all is found without going down again. Bounded memory, no rebuilding, no dependence on how
 //! event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
 
-use super::lanes::{Eight, Judge, Lanes, Tournament};
+use super::simd::{Eight, Judge, Lanes, Tournament};
 
 /// Entries that share a winner: one cache line of times.
 const FAN: usize = 8;
@@ -18,7 +18,7 @@ const TIED: u32 = u32::MAX;
 
 /// The next event time at each seat, s; infinite where there is none.
 #[derive(Debug, Clone)]
-pub(super) struct Queue {
+pub(crate) struct Queue {
     /// Leaves first, then winners of eight, up to a level of one block.
     blocks: Vec<Eight>,
     /// Who won each entry above the leaves, block by block from the second level on.
@@ -31,7 +31,7 @@ pub(super) struct Queue {
 
 impl Queue {
     /// No events at `count` seats.
-    pub(super) fn new(count: usize) -> Queue {
+    pub(crate) fn new(count: usize) -> Queue {
         let (mut starts, mut levels, mut total) = ([0; MOST_LEVELS], 0, 0);
         let mut width = count.max(1);
         loop {
@@ -50,7 +50,7 @@ impl Queue {
 
     /// Sets the next event at a seat to `time`, s.
     #[inline]
-    pub(super) fn set(&mut self, seat: usize, time: f64) {
+    pub(crate) fn set(&mut self, seat: usize, time: f64) {
         let lanes = self.lanes;
         lanes.run(Lift::<false> { queue: self, seat, time });
     }
@@ -58,7 +58,7 @@ impl Queue {
     /// The same for the seat of the first event, which has won all the way up: the earliest time then, and its seat if it
     /// is the only one.
     #[inline]
-    pub(super) fn replace_first(&mut self, seat: usize, time: f64) -> Option<(f64, usize)> {
+    pub(crate) fn replace_first(&mut self, seat: usize, time: f64) -> Option<(f64, usize)> {
         let lanes = self.lanes;
         let (time, winner) = lanes.run(Lift::<true> { queue: self, seat, time });
         (winner != TIED).then_some((time, winner as usize))
@@ -66,19 +66,19 @@ impl Queue {
 
     /// The earliest time, s, infinite if nothing ever happens; and its seat if it is the only one.
     #[inline]
-    pub(super) fn earliest(&self) -> (f64, Option<usize>) {
+    pub(crate) fn earliest(&self) -> (f64, Option<usize>) {
         let (time, winner) = self.lanes.run(Winner { queue: self });
         (time, (winner != TIED).then_some(winner as usize))
     }
 
     /// When the event of a seat is, s.
-    pub(super) fn time_of(&self, seat: usize) -> f64 {
+    pub(crate) fn time_of(&self, seat: usize) -> f64 {
         self.blocks[seat / FAN].0[seat % FAN]
     }
 
     /// Lists the events until `time` (s), no more than `most` or little more, level by level: what the next one will read
     /// is asked for meanwhile. `blocks` is lent.
-    pub(super) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>, blocks: &mut [Vec<u32>; 2]) {
+    pub(crate) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>, blocks: &mut [Vec<u32>; 2]) {
         let [above, below] = blocks;
         above.clear();
         above.push(0);
@@ -104,13 +104,13 @@ impl Queue {
 
     /// Asks for the entry of a seat: it will change soon.
     #[inline]
-    pub(super) fn fetch(&self, seat: usize) {
+    pub(crate) fn fetch(&self, seat: usize) {
         self.lanes.fetch(&self.blocks[seat / FAN]);
     }
 
     /// Visits every seat with the earliest time, s.
     #[cold]
-    pub(super) fn each_at(&self, time: f64, mut visit: impl FnMut(usize)) {
+    pub(crate) fn each_at(&self, time: f64, mut visit: impl FnMut(usize)) {
         self.descend(self.levels - 1, 0, time, &mut visit);
     }
 

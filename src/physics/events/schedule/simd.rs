@@ -2,68 +2,69 @@
 //! where it cannot. Both make the same bits, which is tested: nothing is contracted or reordered.
 
 use glam::DVec3;
+
+use crate::physics::events::trajectories::Record;
+use crate::physics::path::Path;
+
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::V3;
 
-use super::flight::Record;
-use crate::physics::contact_time::Path;
-
 /// Seats that are looked at in one call at most: a bit each.
-pub(super) const MOST: usize = 64;
+pub(crate) const MOST: usize = 64;
 
 /// Eight times: one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(super) struct Eight(pub(super) [f64; 8]);
+pub(crate) struct Eight(pub(super) [f64; 8]);
 
 /// What is found out about four pairs, each at offset x with relative velocity v: b = x·v or 0 where they part,
 /// c = x² − reach², and the discriminant b² − v² c. They meet if b is negative and the discriminant positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Four {
-    pub(super) b: [f64; 4],
-    pub(super) c: [f64; 4],
-    pub(super) discriminant: [f64; 4],
+pub(crate) struct Four {
+    pub(crate) b: [f64; 4],
+    pub(crate) c: [f64; 4],
+    pub(crate) discriminant: [f64; 4],
 }
 
 /// Room for what is found out in one call, and for a pair that never meets.
-pub(super) const FOURS: usize = MOST / 4 + 1;
+pub(crate) const FOURS: usize = MOST / 4 + 1;
 
 impl Four {
     /// Never.
-    pub(super) const NEVER: Four = Four { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
+    pub(crate) const NEVER: Four = Four { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
 }
 
 /// The earliest of some pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Earliest {
+pub(crate) struct Earliest {
     /// When they meet, s; infinite if none does before the other meets somebody.
-    pub(super) time: f64,
+    pub(crate) time: f64,
     /// The other's seat.
-    pub(super) with: u32,
+    pub(crate) with: u32,
     /// A bit for each pair that meets.
-    pub(super) meet: u64,
+    pub(crate) meet: u64,
     /// Whether one of them overlaps, or another meets at the same time: they are to be looked at one by one.
-    pub(super) doubtful: bool,
+    pub(crate) doubtful: bool,
 }
 
 /// Who looks: a sphere's path and radius at the present, s, with the acceleration that all share.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Eye<'a> {
-    pub(super) path: &'a Path,
-    pub(super) r: f64,
-    pub(super) now: f64,
+pub(crate) struct Eye<'a> {
+    pub(crate) path: &'a Path,
+    pub(crate) r: f64,
+    pub(crate) now: f64,
 }
 
 /// What the processor can.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lanes {
+pub(crate) struct Lanes {
     #[cfg(target_arch = "x86_64")]
     wide: Option<V3>,
 }
 
 impl Lanes {
     /// As this processor is.
-    pub(super) fn new() -> Lanes {
+    pub(crate) fn new() -> Lanes {
         Lanes {
             #[cfg(target_arch = "x86_64")]
             wide: V3::try_new(),
@@ -81,7 +82,7 @@ impl Lanes {
 
     /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most.
     #[inline]
-    pub(super) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> Earliest {
+    pub(crate) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> Earliest {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             return match eye.path.a == DVec3::ZERO {
@@ -95,7 +96,7 @@ impl Lanes {
 
     /// Asks for what will be read soon.
     #[inline]
-    pub(super) fn fetch<T>(self, what: &T) {
+    pub(crate) fn fetch<T>(self, what: &T) {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             wide.sse._mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>((&raw const *what).cast());
@@ -104,7 +105,7 @@ impl Lanes {
 
     /// Does a job on many eights.
     #[inline]
-    pub(super) fn run<J: Tournament>(self, job: J) -> J::Output {
+    pub(crate) fn run<J: Tournament>(self, job: J) -> J::Output {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             return wide.vectorize(wide::Run { wide, job });
@@ -114,7 +115,7 @@ impl Lanes {
 }
 
 /// A job on many eights.
-pub(super) trait Tournament {
+pub(crate) trait Tournament {
     /// What comes of it.
     type Output;
     /// Does it.
@@ -122,7 +123,7 @@ pub(super) trait Tournament {
 }
 
 /// Judges eight times.
-pub(super) trait Judge: Copy {
+pub(crate) trait Judge: Copy {
     /// The smallest, and a bit for each that equals it.
     fn judge(self, times: &Eight) -> (f64, u32);
     /// Puts `time` in the place `k` of another, and judges.
@@ -223,21 +224,24 @@ mod wide {
 
     use pulp::NullaryFnOnce;
 
-    use super::*;
-    use crate::physics::exact::flight::Line;
+    use glam::DVec3;
+    use pulp::x86::V3;
+
+    use super::{Earliest, Eight, Eye, FOURS, Four, Judge, Tournament, earliest};
+    use crate::physics::events::trajectories::{Line, Record};
 
     /// Looks at pairs of spheres that an acceleration bends or not.
-    pub(super) struct Look<'a, const BENT: bool> {
-        pub(super) wide: V3,
-        pub(super) eye: Eye<'a>,
-        pub(super) records: &'a [Record],
-        pub(super) seats: &'a [u32],
-        pub(super) fours: &'a mut [Four; FOURS],
+    pub(crate) struct Look<'a, const BENT: bool> {
+        pub(crate) wide: V3,
+        pub(crate) eye: Eye<'a>,
+        pub(crate) records: &'a [Record],
+        pub(crate) seats: &'a [u32],
+        pub(crate) fours: &'a mut [Four; FOURS],
     }
 
-    pub(super) struct Run<J> {
-        pub(super) wide: V3,
-        pub(super) job: J,
+    pub(crate) struct Run<J> {
+        pub(crate) wide: V3,
+        pub(crate) job: J,
     }
 
     impl<J: Tournament> NullaryFnOnce for Run<J> {
@@ -368,8 +372,8 @@ mod wide {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::Model;
-    use crate::physics::exact::flight::Flight;
+    use crate::physics::events::trajectories::Flight;
+    use crate::physics::model::Model;
     use glam::dvec3;
 
     /// Numbers in [−1, 1) of many magnitudes, the same in every run.

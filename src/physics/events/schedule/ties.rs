@@ -4,13 +4,13 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::Exact;
 use super::prediction::Rank;
-use crate::physics::detector::Detector;
+use crate::physics::events::detector::Detector;
+use crate::physics::events::engine::EventDriven;
 
 /// Seats with an event at one time, the first on top. What has changed since it was put in is noticed when it comes up.
 #[derive(Debug, Clone)]
-pub(super) struct Ties {
+pub(crate) struct Ties {
     /// s; no number while there are none.
     time: f64,
     heap: BinaryHeap<Reverse<(Rank, u32)>>,
@@ -18,14 +18,14 @@ pub(super) struct Ties {
 
 impl Ties {
     /// None.
-    pub(super) fn none() -> Ties {
+    pub(crate) fn none() -> Ties {
         Ties { time: f64::NAN, heap: BinaryHeap::new() }
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// The earliest event and the seat it is entered for; seat 0 if nothing ever happens.
-    pub(super) fn first(&mut self) -> (f64, usize) {
+    pub(crate) fn first(&mut self) -> (f64, usize) {
         match self.queue.earliest() {
             (f64::INFINITY, _) => (f64::INFINITY, 0),
             (time, Some(seat)) => (time, seat),
@@ -65,7 +65,7 @@ impl<D: Detector> Exact<D> {
 
     /// An event has been entered for a seat at `time`, s.
     #[inline(always)]
-    pub(super) fn tie(&mut self, seat: usize, time: f64) {
+    pub(crate) fn tie(&mut self, seat: usize, time: f64) {
         if time == self.ties.time {
             self.enter_tie(seat, time);
         }
@@ -78,7 +78,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Seats have changed: what is known by them is void.
-    pub(super) fn forget_ties(&mut self) {
+    pub(crate) fn forget_ties(&mut self) {
         self.ties = Ties::none();
     }
 }

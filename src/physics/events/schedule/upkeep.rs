@@ -7,12 +7,12 @@
 
 use glam::DVec3;
 
-use super::Exact;
 use super::cells::layout::{bounds, widest_in_table};
 use super::cells::{Cells, Layout, Spot};
-use super::flight::Record;
-use crate::physics::Model;
-use crate::physics::detector::Detector;
+use crate::physics::events::detector::Detector;
+use crate::physics::events::engine::EventDriven;
+use crate::physics::events::trajectories::Record;
+use crate::physics::model::Model;
 
 /// Crossings per sphere after which the spheres are seated anew: they have gone some cubes from their seats by then.
 const CROSSINGS: u64 = 3;
@@ -25,7 +25,7 @@ const CROSSING: f64 = 32.0;
 
 /// Work since the last review.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wear {
+pub(crate) struct Wear {
     crossings: u64,
     /// Looks at a pair since it was last asked whether they are too many.
     pairs: u64,
@@ -39,27 +39,27 @@ pub(super) struct Wear {
 
 impl Wear {
     /// None, among so many spheres at time `t`, s.
-    pub(super) fn new(spheres: usize, t: f64) -> Wear {
+    pub(crate) fn new(spheres: usize, t: f64) -> Wear {
         Wear { crossings: 0, pairs: 0, looks: 0, since: t, most: [CROSSINGS, PAIRS].map(|each| each * spheres as u64) }
     }
 
     /// A sphere crossed into a cube and looked at so many.
     #[inline(always)]
-    pub(super) fn cross(&mut self, pairs: u64) {
+    pub(crate) fn cross(&mut self, pairs: u64) {
         self.crossings += 1;
         self.pairs += pairs;
     }
 
     /// A sphere looked around, at so many.
     #[inline(always)]
-    pub(super) fn look(&mut self, pairs: u64) {
+    pub(crate) fn look(&mut self, pairs: u64) {
         self.looks += 1;
         self.pairs += pairs;
     }
 
     /// Whether it is time to ask.
     #[inline(always)]
-    pub(super) fn is_worn(&self) -> bool {
+    pub(crate) fn is_worn(&self) -> bool {
         self.has_many_crossings() | (self.pairs > self.most[1])
     }
 
@@ -69,9 +69,9 @@ impl Wear {
     }
 }
 
-impl<D: Detector> Exact<D> {
+impl<D: Detector> EventDriven<D> {
     /// Asks whether the cells still fit, changes them if they do not, and seats the spheres anew after many crossings.
-    pub(super) fn review(&mut self, model: &Model) {
+    pub(crate) fn review(&mut self, model: &Model) {
         self.wear.pairs = 0;
         if self.cells.is_none() {
             return;
@@ -94,7 +94,7 @@ impl<D: Detector> Exact<D> {
     }
 
     /// Lays out cells for the spheres as they are, and seats the spheres; nothing is predicted.
-    pub(super) fn lay_out(&mut self, model: &Model) {
+    pub(crate) fn lay_out(&mut self, model: &Model) {
         let layout = self.best_layout();
         self.enter_cubes(model, layout);
     }
@@ -168,7 +168,7 @@ impl<D: Detector> Exact<D> {
 
     /// A sphere in no cube is in one again as soon as something has happened to it.
     #[inline(always)]
-    pub(super) fn catch(&mut self, seat: usize) {
+    pub(crate) fn catch(&mut self, seat: usize) {
         let record = &self.flight.records[seat];
         if record.spot.is_loose() {
             self.catch_loose(seat);

@@ -23,19 +23,19 @@ const MARGIN: f64 = 1.0 + 1e-6;
 
 /// Where the spheres are that the table is for, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::physics::exact) struct Layout {
-    pub(super) origin: DVec3,
+pub(crate) struct Layout {
+    pub(crate) origin: DVec3,
     /// Edge of a cube, m.
-    pub(super) edge: f64,
+    pub(crate) edge: f64,
     /// The table's size along each axis.
-    pub(super) size: [i32; 3],
+    pub(crate) size: [i32; 3],
     /// The largest radius in the table, m.
-    pub(super) widest: f64,
+    pub(crate) widest: f64,
 }
 
 impl Layout {
     /// For spheres at `x` (m) none of which is wider than `widest`, m.
-    pub(in crate::physics::exact) fn new(x: &[DVec3], widest: f64) -> Layout {
+    pub(crate) fn new(x: &[DVec3], widest: f64) -> Layout {
         let room = bounds(x);
         let mut origin = room.min;
         let least = 2.0 * widest * MARGIN;
@@ -51,7 +51,7 @@ impl Layout {
     }
 
     /// Whether the cubes or the table differ so much from another's that it is worth changing them.
-    pub(in crate::physics::exact) fn differs(&self, other: &Layout) -> bool {
+    pub(crate) fn differs(&self, other: &Layout) -> bool {
         let apart = |a: f64, b: f64, most: f64| a > most * b || b > most * a;
         apart(self.edge, other.edge, 1.3)
             || self.widest != other.widest
@@ -59,14 +59,14 @@ impl Layout {
     }
 
     /// Whether spheres at `x` (m), in a box of this size (m), should have much wider or narrower cubes.
-    pub(in crate::physics::exact) fn is_outgrown(&self, x: &[DVec3], size: DVec3) -> bool {
+    pub(crate) fn is_outgrown(&self, x: &[DVec3], size: DVec3) -> bool {
         let edge = sparse_edge(2.0 * self.widest * MARGIN, size, x.len());
         self.edge > 1.5 * edge || edge > 1.5 * self.edge && crowding(x, self.origin, 1.5 * self.edge) <= CROWDED
     }
 }
 
 /// The box of some points, m.
-pub(in crate::physics::exact) fn bounds(x: &[DVec3]) -> Bounds {
+pub(crate) fn bounds(x: &[DVec3]) -> Bounds {
     Bounds::of(x.iter().map(|&x| Bounds { min: x, max: x })).unwrap_or(Bounds { min: DVec3::ZERO, max: DVec3::ONE })
 }
 
@@ -75,7 +75,7 @@ pub(in crate::physics::exact) fn bounds(x: &[DVec3]) -> Bounds {
 ///
 /// Judged by what a contact costs: a look at each sphere around and at each one that is kept out, a crossing, and a look
 /// at everybody as often as one of those kept out is struck, which grows with its cross-section.
-pub(in crate::physics::exact) fn widest_in_table(x: &[DVec3], radii: &[f64]) -> f64 {
+pub(crate) fn widest_in_table(x: &[DVec3], radii: &[f64]) -> f64 {
     let widest = radii.iter().copied().fold(0.0, f64::max);
     let least = radii.iter().copied().fold(f64::INFINITY, f64::min);
     if widest <= 1.5 * least {

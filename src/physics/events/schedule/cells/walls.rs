@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::{Cells, Cube, OUTERMOST, SLOTS, WALLS};
-use crate::physics::model::{Face, Model};
+use crate::physics::model::Model;
+use crate::physics::wall::Face;
 
 /// Leaves room for the rounding of coordinates.
 const MARGIN: f64 = 1.0 + 1e-6;
@@ -21,7 +22,7 @@ struct Slab<'a> {
 
 impl Cells {
     /// Lists each wall in every place whose cubes a sphere of the table touches it from.
-    pub(super) fn register(&mut self, model: &Model) {
+    pub(crate) fn register(&mut self, model: &Model) {
         let reach = self.widest * MARGIN;
         let mut near: Vec<(u32, u32)> = Vec::new();
         for (wall, face) in model.faces.iter().enumerate() {

@@ -1,0 +1,4 @@
+pub(super) mod arc;
+pub(super) mod bodies;
+mod equation;
+mod hermite;

@@ -1,0 +1,16 @@
+mod bounce;
+mod bounce_series;
+mod chattering;
+mod curved;
+pub(super) mod detector;
+pub(super) mod engine;
+mod impact;
+mod initial_contacts;
+mod instant;
+mod islands;
+mod plain_pair;
+mod rest_criteria;
+mod resumable;
+mod schedule;
+mod squeezed;
+mod trajectories;

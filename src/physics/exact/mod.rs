@@ -1,0 +1,23 @@
+//! The event-driven method: no time step. Between events every sphere moves on a parabola; the next event is computed,
+//! not searched for by stepping. The yardstick of the other methods.
+
+mod root_detector;
+
+use super::events::engine::EventDriven;
+use super::method::Description;
+use super::model::Method;
+use root_detector::Roots;
+
+/// The method at work.
+pub(super) type Exact = EventDriven<Roots>;
+
+/// What the method is.
+pub(super) const DESCRIPTION: Description = Description {
+    method: Method::Exact,
+    summary: "event-driven: parabolas between contacts whose times are roots of polynomials; no time step",
+    order: "exact up to rounding; curved rest (on edges, corners and other spheres) is integrated to 1e-12, and bounces \
+            across less than 1e-7 r that others keep from dying out rest after a hundred",
+    source: "Lubachevsky 1991; event rule of Bannerman et al. 2014; complementarity of resting islands",
+    knobs: "none: dt only sets the frames that are shown, the tolerance is not used",
+    avoid: "crowds that settle with restitution below 1: their events come ever faster",
+};
