@@ -6,9 +6,9 @@ use glam::DVec3;
 use super::bounce_series::Bounces;
 use super::detector::Detector;
 use super::engine::EventDriven;
-use super::impact::Meeting;
+use super::impact::ContactState;
 use super::islands::equilibrium::ROUNDING;
-use super::trajectories::Line;
+use super::trajectories::Trajectory;
 use crate::physics::contact::Kind;
 use crate::physics::impact_law::along;
 use crate::physics::model::Model;
@@ -45,7 +45,7 @@ impl<D: Detector> EventDriven<D> {
     /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
     /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
     /// 1e-5 of it each, and the time that they take.
-    pub(super) fn keep_energy(&mut self, model: &Model, before: &Line, meeting: &mut Meeting) {
+    pub(super) fn restore_bounce_speed(&mut self, model: &Model, before: &Trajectory, meeting: &mut ContactState) {
         let (_, sphere, wall) = meeting.key;
         if !meeting.flat || meeting.v_n >= 0.0 || meeting.a_n >= 0.0 || before.t == self.now {
             return;
@@ -64,7 +64,7 @@ impl<D: Detector> EventDriven<D> {
     /// How long the bounces of a contact still last whose next would go `SMALL_HOP` high at most, s: the sum of their
     /// flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests. Only where they change nothing but
     /// the height. Over so short a time, edges, corners and other spheres are as good as faces.
-    pub(super) fn bounces_left(&self, model: &Model, meeting: &Meeting) -> f64 {
+    pub(super) fn bounce_series_duration(&self, model: &Model, meeting: &ContactState) -> f64 {
         let (law, wall) = (&model.law, meeting.key.0 == Kind::Wall);
         let e = if wall { law.wall_restitution } else { law.restitution };
         let closed_form = 0.0 < e && e < 1.0 && (!wall || law.tangential == 1.0);
@@ -77,7 +77,7 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// The bounces on a wall that follow an impact, whose speeds are those of this moment.
-    fn bounces(&self, model: &Model, meeting: &Meeting) -> Bounces {
+    fn bounces(&self, model: &Model, meeting: &ContactState) -> Bounces {
         let path = self.flight.path(meeting.key.1, self.now);
         let along_face = |u: DVec3| u - meeting.normal * meeting.normal.dot(u);
         Bounces {
@@ -92,7 +92,7 @@ impl<D: Detector> EventDriven<D> {
 
     /// Right after an impact on a wall that rubs: if the bounces that follow are too low to be worth a look, the sphere
     /// goes on along the wall with their mean velocity, and will have, when they are over, the velocity that they leave.
-    pub(super) fn sum_up(&mut self, model: &Model, meeting: &Meeting) {
+    pub(super) fn sum_up(&mut self, model: &Model, meeting: &ContactState) {
         let a = meeting.key.1;
         if !self.leaves_a_series(model, meeting) {
             return;
@@ -116,12 +116,12 @@ impl<D: Detector> EventDriven<D> {
         self.flight.rewrite(a, self.now, line.x, mean);
         let rub = Rub { keeps: ending.keeps, expected: mean + change, slip: ending.slip, share };
         let until = self.now + ending.after;
-        self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, until);
+        self.rests.add(model, &self.flight, self.now, &ContactState { v_n: 0.0, ..*meeting }, until);
         self.rests.rub(meeting.key, rub);
     }
 
     /// Whether an impact on a wall that rubs, no rounding itself, is followed by bounces that only sums tell apart.
-    fn leaves_a_series(&self, model: &Model, meeting: &Meeting) -> bool {
+    fn leaves_a_series(&self, model: &Model, meeting: &ContactState) -> bool {
         let (law, e) = (&model.law, model.law.wall_restitution);
         let series = meeting.key.0 == Kind::Wall && meeting.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
         let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
@@ -129,7 +129,7 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
-    pub(super) fn brushes(&self, meeting: &Meeting) -> bool {
+    pub(super) fn is_rounding_approach(&self, meeting: &ContactState) -> bool {
         let (kind, a, b) = meeting.key;
         let path = |i: usize| self.flight.path(i, self.now);
         let size = |of: fn(&Path) -> DVec3| {
@@ -140,9 +140,9 @@ impl<D: Detector> EventDriven<D> {
 
     /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
     /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
-    pub(super) fn turn_back(&mut self, model: &Model, meeting: &Meeting) {
+    pub(super) fn reflect_rounding_approach(&mut self, model: &Model, meeting: &ContactState) {
         let (kind, a, b) = meeting.key;
-        let change = -meeting.v_n + self.hop_speed(meeting).max(-meeting.v_n);
+        let change = -meeting.v_n + self.min_separation_speed(meeting).max(-meeting.v_n);
         if kind == Kind::Wall {
             self.push(a, meeting.normal * change);
         } else {
@@ -150,15 +150,15 @@ impl<D: Detector> EventDriven<D> {
             self.push(a, push * model.inverse_masses[a]);
             self.push(b, push * -model.inverse_masses[b]);
         }
-        self.part(model, meeting.key, 0.0);
+        self.ensure_separating(model, meeting.key, 0.0);
     }
 
     /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
     /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
-    pub(super) fn hop_speed(&self, meeting: &Meeting) -> f64 {
+    pub(super) fn min_separation_speed(&self, meeting: &ContactState) -> f64 {
         let path = self.flight.path(meeting.key.1, self.now);
         let pressing = (-meeting.normal.dot(path.a)).max(0.0);
-        f64::EPSILON * path.v.length() + self.tick() * pressing
+        f64::EPSILON * path.v.length() + self.clock_ulp() * pressing
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::detector::Detector;
 use super::engine::EventDriven;
-use super::impact::{HOP, Meeting};
+use super::impact::{ContactState, HOP};
 use super::rest_criteria::SMALL_HOP;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::{ContactLaw, Model};
@@ -60,14 +60,14 @@ impl Row {
     /// long beside what each of them loses.
     fn is_endless(&self, approach_speed: f64, keeps: f64, pull: f64) -> bool {
         if keeps == 1.0 {
-            return self.count > LOST && self.is_fed(pull);
+            return self.count > LOST && self.is_driven(pull);
         }
         let loses = f64::from(self.count) * (1.0 - keeps) > DECAY;
-        self.count > MANY && loses && approach_speed > self.due || self.tiny > MANY && self.is_fed(pull)
+        self.count > MANY && loses && approach_speed > self.due || self.tiny > MANY && self.is_driven(pull)
     }
 
     /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.
-    fn is_fed(&self, pull: f64) -> bool {
+    fn is_driven(&self, pull: f64) -> bool {
         self.given <= FED * pull * self.took
     }
 }
@@ -75,14 +75,14 @@ impl Row {
 impl<D: Detector> EventDriven<D> {
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
     /// bodies last changed. A chain of impacts at one instant alone is no such row: nothing has fed it.
-    pub(super) fn chatters(&mut self, model: &Model, meeting: &Meeting, since: f64) -> bool {
+    pub(super) fn chatters(&mut self, model: &Model, meeting: &ContactState, since: f64) -> bool {
         let pull = self.pull(model, meeting.key);
         if pull == 0.0 || model.law == LOSSLESS {
             return false;
         }
         let (now, approach_speed) = (self.now, -meeting.v_n);
         let since = self.chatter.get(&meeting.key).map_or(since, |row| row.last);
-        let keeps = self.keeps(model, meeting.key);
+        let keeps = self.speed_kept(model, meeting.key);
         let rounding = HOP * meeting.size();
         let small = if keeps < 1.0 { SMALL * meeting.reach } else { rounding };
         // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
@@ -103,7 +103,7 @@ impl<D: Detector> EventDriven<D> {
 
     /// Whether [`EventDriven::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
     #[inline(always)]
-    pub(super) fn may_chatter(&self, meeting: &Meeting, since: f64) -> bool {
+    pub(super) fn may_chatter(&self, meeting: &ContactState, since: f64) -> bool {
         let fed = self.flight.common() != Some(DVec3::ZERO);
         let small = (SMALL * meeting.reach).max(HOP * meeting.size());
         fed && (!self.chatter.is_empty() || -meeting.v_n * (self.now - since) <= 4.0 * small)
@@ -117,7 +117,7 @@ impl<D: Detector> EventDriven<D> {
 
     /// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
     /// bodies rests on something else too, and what it passes on to that is lost.
-    fn keeps(&self, model: &Model, (kind, a, b): Key) -> f64 {
+    fn speed_kept(&self, model: &Model, (kind, a, b): Key) -> f64 {
         let law = &model.law;
         let (own, other) = match kind {
             Kind::Pair => (law.restitution, law.wall_restitution),

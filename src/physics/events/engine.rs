@@ -15,15 +15,15 @@ use super::detector::Detector;
 use super::instant::{Instant, beginning};
 use super::islands::resting::Rests;
 use super::resumable::{self, Origin, Replay};
-use super::schedule::candidates::Near;
+use super::schedule::candidates::Candidates;
 use super::schedule::cells::Cells;
-use super::schedule::prediction::Sort;
-use super::schedule::prefetch::Scout;
+use super::schedule::prediction::EventKind;
+use super::schedule::prefetch::Prefetch;
 use super::schedule::queue::Queue;
-use super::schedule::simd::Lanes;
+use super::schedule::simd::Simd;
 use super::schedule::ties::Ties;
 use super::schedule::upkeep::Wear;
-use super::trajectories::Flight;
+use super::trajectories::Trajectories;
 use crate::physics::log::Log;
 use crate::physics::method::{Engine, Progress, Until};
 use crate::physics::model::{Model, Settings};
@@ -48,7 +48,7 @@ pub(crate) struct EventDriven<D> {
     pub(super) goal: f64,
     /// Where the frame under way ends if nothing happens before, s.
     pub(super) end: f64,
-    pub(super) flight: Flight,
+    pub(super) flight: Trajectories,
     /// By seat.
     pub(super) queue: Queue,
     /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
@@ -58,10 +58,10 @@ pub(crate) struct EventDriven<D> {
     /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
     pub(super) until: f64,
     /// Lent to whoever looks around.
-    pub(super) near: Option<Box<Near>>,
+    pub(super) near: Option<Box<Candidates>>,
     pub(super) wear: Wear,
-    pub(super) scout: Scout,
-    pub(super) lanes: Lanes,
+    pub(super) scout: Prefetch,
+    pub(super) lanes: Simd,
     pub(super) rests: Rests,
     pub(super) instant: Instant,
     /// The time scale of the start, s: what the clock is taken for at its zero.
@@ -107,16 +107,16 @@ impl<D: Detector> Engine for EventDriven<D> {
             frame: Frame { time: state.t, step: 0.0, open: false },
             goal: f64::NEG_INFINITY,
             end: f64::MAX,
-            flight: Flight::new(model, &state),
+            flight: Trajectories::new(model, &state),
             queue: Queue::new(count),
             next: None,
             ties: Ties::none(),
             cells: None,
             until: f64::INFINITY,
-            near: Some(Box::new(Near::nobody())),
+            near: Some(Box::new(Candidates::empty())),
             wear: Wear::new(count, state.t),
-            scout: Scout::default(),
-            lanes: Lanes::new(),
+            scout: Prefetch::default(),
+            lanes: Simd::new(),
             rests: Rests::default(),
             instant: Instant::default(),
             beginning: beginning(model, &state),
@@ -192,7 +192,7 @@ impl<D: Detector> Engine for EventDriven<D> {
         }
         let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
         let mut state = self.flight.then(t);
-        self.rests.bend(model, &mut state);
+        self.rests.arcs_into(model, &mut state);
         state
     }
 
@@ -251,7 +251,7 @@ impl<D: Detector> EventDriven<D> {
             None => self.first(),
         };
         let next = self.sort(time, seat);
-        if self.rests.is_dirty() && (time > self.now || next != Sort::Contact) {
+        if self.rests.is_dirty() && (time > self.now || next != EventKind::Contact) {
             self.settle(model, log)?;
             return Ok(Turn::Event);
         }
@@ -266,9 +266,9 @@ impl<D: Detector> EventDriven<D> {
         self.advance_clock(time, model.len())?;
         self.scout();
         match next {
-            Sort::Contact => self.contact(model, log, seat)?,
-            Sort::End => self.end_parabola(model, self.flight.sphere(seat)),
-            Sort::Crossing => self.cross(model, seat),
+            EventKind::Contact => self.contact(model, log, seat)?,
+            EventKind::End => self.end_parabola(model, self.flight.sphere(seat)),
+            EventKind::Crossing => self.cross(model, seat),
         }
         if self.wear.is_worn() {
             self.review(model);

@@ -23,7 +23,7 @@ const SLOW: f64 = 1e-6;
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Meeting {
+pub(super) struct ContactState {
     pub(super) key: Key,
     pub(super) point: DVec3,
     pub(super) normal: DVec3,
@@ -38,7 +38,7 @@ pub(super) struct Meeting {
     pub(super) flat: bool,
 }
 
-impl Meeting {
+impl ContactState {
     /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
     /// speed at which they approach or part.
     pub(super) fn hops_within_rounding(&self, pull: f64) -> bool {
@@ -90,10 +90,10 @@ impl<D: Detector> EventDriven<D> {
         let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
         let rests = !self.rests.is_empty() && self.rests.holds(self.key(seat, &plan));
         if !plan.sure || stale || rests {
-            self.predict_first(model, seat);
+            self.predict_due(model, seat);
             return Ok(());
         }
-        if !self.strike(model, log, seat, &plan)? {
+        if !self.collide_plain_pair(model, log, seat, &plan)? {
             self.meet(model, log, self.key(seat, &plan))?;
         }
         // whatever became of the contact, this plan is used up
@@ -104,17 +104,17 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// The bodies of a contact now, their lines brought to the present.
-    pub(super) fn meeting(&mut self, model: &Model, key: Key) -> Meeting {
+    pub(super) fn meeting(&mut self, model: &Model, key: Key) -> ContactState {
         let (kind, a, b) = key;
         self.bring(model, a);
         if kind == Kind::Pair {
             self.bring(model, b);
         }
-        self.seen(model, key, self.now)
+        self.contact_state(model, key, self.now)
     }
 
     /// The same at `time` (s) without touching the lines.
-    pub(super) fn seen(&self, model: &Model, key: Key, time: f64) -> Meeting {
+    pub(super) fn contact_state(&self, model: &Model, key: Key, time: f64) -> ContactState {
         let (kind, a, b) = key;
         let path = self.flight.path(a, time);
         match kind {
@@ -127,7 +127,7 @@ impl<D: Detector> EventDriven<D> {
                 let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
                 let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
                 let flat = part == Part::Face && at.part == part;
-                Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
+                ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
             }
             Kind::Pair => {
                 let other = self.flight.path(b, time);
@@ -139,20 +139,20 @@ impl<D: Detector> EventDriven<D> {
                 let across = relative.v - normal * v_n;
                 let a_n = normal.dot(relative.a) + across.length_squared() / distance;
                 let point = other.x + normal * (r_b + 0.5 * gap);
-                Meeting { key, point, normal, gap, reach, v_n, a_n, flat: false }
+                ContactState { key, point, normal, gap, reach, v_n, a_n, flat: false }
             }
         }
     }
 
     /// The same for somebody who only looks: without what the impact law asks, which takes far longer to find.
-    pub(super) fn shown(&self, model: &Model, key: Key, time: f64) -> Meeting {
+    pub(super) fn contact_geometry(&self, model: &Model, key: Key, time: f64) -> ContactState {
         let (kind, a, b) = key;
         if kind == Kind::Pair {
-            return self.seen(model, key, time);
+            return self.contact_state(model, key, time);
         }
         let reach = self.flight.line(a).r;
         let at = touch(&model.faces[b], self.flight.path(a, time).x, reach);
-        Meeting { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
+        ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
     }
 
     /// The impact law acts on a contact.
@@ -160,29 +160,29 @@ impl<D: Detector> EventDriven<D> {
         let before = *self.flight.line(key.1);
         let since = if key.0 == Kind::Pair { before.t.max(self.flight.line(key.2).t) } else { before.t };
         let mut meeting = self.meeting(model, key);
-        self.keep_energy(model, &before, &mut meeting);
+        self.restore_bounce_speed(model, &before, &mut meeting);
         if self.is_squeezed(model, &meeting) {
             return Ok(());
         }
         match self.class(model, log, &meeting, since) {
             Class::Collide => self.collide(model, log, &meeting),
-            Class::Rest if self.brushes(&meeting) => {
-                self.turn_back(model, &meeting);
+            Class::Rest if self.is_rounding_approach(&meeting) => {
+                self.reflect_rounding_approach(model, &meeting);
                 self.follow_up(model, log, key)
             }
             Class::Rest => {
-                self.rests.propose(
+                self.rests.add(
                     model,
                     &self.flight,
                     self.now,
                     &meeting,
-                    self.now + self.bounces_left(model, &meeting),
+                    self.now + self.bounce_series_duration(model, &meeting),
                 );
                 Ok(())
             }
             Class::Leave | Class::Release => {
                 if meeting.a_n >= 0.0 {
-                    self.part(model, key, self.hop_speed(&meeting));
+                    self.ensure_separating(model, key, self.min_separation_speed(&meeting));
                 }
                 Ok(())
             }
@@ -190,7 +190,7 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// An impact: both bodies get their impulse.
-    pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &Meeting) -> Result<(), Stall> {
+    pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &ContactState) -> Result<(), Stall> {
         let (kind, a, b) = meeting.key;
         let target = separation_speed(meeting.v_n, Class::Collide, kind, &model.law);
         let change = target - meeting.v_n;
@@ -212,14 +212,14 @@ impl<D: Detector> EventDriven<D> {
                 change / share
             }
         };
-        self.part(model, meeting.key, 0.0);
+        self.ensure_separating(model, meeting.key, 0.0);
         let row = meeting.row(self.now, Class::Collide, impulse, target);
         note(log, row);
         self.count_impact(meeting);
         self.follow_up(model, log, meeting.key)?;
         if target == 0.0 && meeting.a_n < 0.0 {
             // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
-            self.rests.propose(model, &self.flight, self.now, &Meeting { v_n: 0.0, ..*meeting }, self.now);
+            self.rests.add(model, &self.flight, self.now, &ContactState { v_n: 0.0, ..*meeting }, self.now);
         }
         self.sum_up(model, meeting);
         Ok(())
@@ -247,7 +247,7 @@ impl<D: Detector> EventDriven<D> {
 
     /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
     /// again and again. The body that is freer gives way.
-    pub(super) fn part(&mut self, model: &Model, key: Key, least: f64) {
+    pub(super) fn ensure_separating(&mut self, model: &Model, key: Key, least: f64) {
         let (kind, a, b) = key;
         let yields = kind == Kind::Pair && self.rests.count(b) < self.rests.count(a);
         let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
@@ -257,7 +257,7 @@ impl<D: Detector> EventDriven<D> {
             if v_n >= least || v_n.is_nan() {
                 return;
             }
-            let normal = self.seen(model, key, self.now).normal;
+            let normal = self.contact_state(model, key, self.now).normal;
             self.push(i, normal * (sign * nudge.max(least - v_n)));
             nudge *= 2.0;
         }
@@ -267,7 +267,7 @@ impl<D: Detector> EventDriven<D> {
     fn v_n(&self, model: &Model, key: Key) -> f64 {
         let (kind, a, b) = key;
         if kind == Kind::Wall {
-            return self.seen(model, key, self.now).v_n;
+            return self.contact_state(model, key, self.now).v_n;
         }
         let (one, two) = (self.flight.line(a), self.flight.line(b));
         pair_normal_velocity(one.x - two.x, one.v - two.v)

@@ -2,7 +2,7 @@
 
 use super::detector::Detector;
 use super::engine::EventDriven;
-use super::schedule::candidates::Near;
+use super::schedule::candidates::Candidates;
 use super::trajectories::Record;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::log::Log;
@@ -21,7 +21,7 @@ impl<D: Detector> EventDriven<D> {
         for key in touching {
             if squeezing.binary_search(&key).is_ok() {
                 let meeting = self.meeting(model, key);
-                self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
+                self.rests.add(model, &self.flight, self.now, &meeting, self.now);
                 continue;
             }
             // a stall at load shows itself again in the first frame
@@ -44,7 +44,7 @@ impl<D: Detector> EventDriven<D> {
     fn meet_at_load(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
         let meeting = self.meeting(model, key);
         if meeting.v_n == 0.0 {
-            self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
+            self.rests.add(model, &self.flight, self.now, &meeting, self.now);
             return Ok(());
         }
         self.meet(model, log, key)
@@ -59,7 +59,7 @@ impl<D: Detector> EventDriven<D> {
     /// Every contact with a gap of at most max(1e-12 r, 8 ulp of the coordinates): walls before pairs, then a, then b.
     fn touching_now(&self, model: &Model) -> Vec<Key> {
         let mut found = Vec::new();
-        let mut near = Near::nobody();
+        let mut near = Candidates::empty();
         let records = &self.flight.records;
         for record in records {
             let Record { line, spot, sphere, .. } = record;

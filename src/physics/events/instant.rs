@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use super::chattering::DECAY;
 use super::detector::Detector;
 use super::engine::EventDriven;
-use super::impact::Meeting;
+use super::impact::ContactState;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, State};
@@ -150,25 +150,25 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// Rounding of the clock, s.
-    pub(super) fn tick(&self) -> f64 {
+    pub(super) fn clock_ulp(&self) -> f64 {
         let t = self.now.abs().max(self.beginning);
         t.next_up() - t
     }
 
     /// Whether a contact that is about to collide once more at this instant has collapsed.
-    pub(super) fn collapses(&mut self, model: &Model, meeting: &Meeting) -> bool {
+    pub(super) fn collapses(&mut self, model: &Model, meeting: &ContactState) -> bool {
         let (kind, a, b) = meeting.key;
         let (restitution, other) = match kind {
             Kind::Wall => (model.law.wall_restitution, 0.0),
             Kind::Pair => (model.law.restitution, model.acceleration(b).length()),
         };
-        let least = self.tick() * (model.acceleration(a).length() + other);
+        let least = self.clock_ulp() * (model.acceleration(a).length() + other);
         let limits = [self.speeds(meeting.key), least];
         self.instant.collapses(meeting.key, -meeting.v_n, 1.0 - restitution, limits)
     }
 
     /// Tells an impact in a long chain from a loop of rounding.
-    pub(super) fn count_impact(&mut self, meeting: &Meeting) {
+    pub(super) fn count_impact(&mut self, meeting: &ContactState) {
         let long = self.instant.events > LONG_CHAIN || self.instant.stretch >= MOST_AT_ONCE;
         if long && -meeting.v_n > LOST * self.speeds(meeting.key) {
             self.instant.count_impact();

@@ -3,10 +3,10 @@
 
 use super::detector::Detector;
 use super::engine::EventDriven;
-use super::impact::{Meeting, note};
+use super::impact::{ContactState, note};
 use super::instant::LONG_CHAIN;
 use super::schedule::prediction::Plan;
-use super::trajectories::{Flight, Line};
+use super::trajectories::{Trajectories, Trajectory};
 use crate::physics::contact::{Class, Kind};
 use crate::physics::impact_law::{pair_normal_velocity, pair_push, separation_speed};
 use crate::physics::log::Log;
@@ -17,17 +17,17 @@ use crate::physics::state::Stall;
 struct Pair {
     seats: [usize; 2],
     /// At the present.
-    lines: [Line; 2],
+    lines: [Trajectory; 2],
     /// When the motion of either last changed, s.
     since: f64,
-    meeting: Meeting,
+    meeting: ContactState,
 }
 
 impl Pair {
-    /// The pair that the sphere at a seat planned to meet, as [`EventDriven::seen`] sees it at `now` (s); none if what
+    /// The pair that the sphere at a seat planned to meet, as [`EventDriven::contact_state`] sees it at `now` (s); none if what
     /// accelerates them differs.
     #[inline(always)]
-    fn new(flight: &Flight, seat: usize, plan: &Plan, now: f64) -> Option<Pair> {
+    fn new(flight: &Trajectories, seat: usize, plan: &Plan, now: f64) -> Option<Pair> {
         let (a, other) = (flight.common()?, plan.other as usize);
         let swap = usize::from(flight.sphere(seat) > flight.sphere(other));
         let seats = [[seat, other][swap], [other, seat][swap]];
@@ -39,7 +39,7 @@ impl Pair {
         let (x, reach) = (one.x - two.x, lines[0].r + lines[1].r);
         let distance = x.length();
         let (normal, gap) = (x / distance, distance - reach);
-        let meeting = Meeting {
+        let meeting = ContactState {
             key,
             point: two.x + normal * (lines[1].r + 0.5 * gap),
             normal,
@@ -58,7 +58,13 @@ impl<D: Detector> EventDriven<D> {
     /// Lets the impact law act on the pair that the sphere at a seat planned to meet, if it is as simple as that; says
     /// whether it was.
     #[inline]
-    pub(super) fn strike(&mut self, model: &Model, log: &mut Log, seat: usize, plan: &Plan) -> Result<bool, Stall> {
+    pub(super) fn collide_plain_pair(
+        &mut self,
+        model: &Model,
+        log: &mut Log,
+        seat: usize,
+        plan: &Plan,
+    ) -> Result<bool, Stall> {
         if plan.kind != Kind::Pair || !self.rests.is_empty() {
             return Ok(false);
         }
@@ -75,13 +81,13 @@ impl<D: Detector> EventDriven<D> {
         }
         // the due one last: then it is known what comes next
         self.predict_at(model, plan.other as usize);
-        self.predict_first(model, seat);
+        self.predict_due(model, seat);
         Ok(true)
     }
 
     /// Whether a pair that nothing presses together collides without any of what the general way watches for.
     #[inline(always)]
-    fn is_plain(&self, model: &Model, meeting: &Meeting) -> bool {
+    fn is_plain(&self, model: &Model, meeting: &ContactState) -> bool {
         let v_n = meeting.v_n;
         let watched = model.law.restitution < 1.0 && v_n * v_n == 0.0;
         v_n < -model.law.rest_speed && !watched && self.instant.events <= LONG_CHAIN
@@ -95,11 +101,12 @@ impl<D: Detector> EventDriven<D> {
             [self.flight.records[seats[0]].inverse_mass, self.flight.records[seats[1]].inverse_mass];
         let (arm, w, share) = (one.x - two.x, one.v - two.v, share_a + share_b);
         let push = pair_push(arm, w, share, model.law.restitution);
-        let (one, two) = (Line { v: one.v + push * share_a, ..one }, Line { v: two.v + push * -share_b, ..two });
+        let (one, two) =
+            (Trajectory { v: one.v + push * share_a, ..one }, Trajectory { v: two.v + push * -share_b, ..two });
         self.flight.turn(seats[0], one);
         self.flight.turn(seats[1], two);
         if pair_normal_velocity(arm, one.v - two.v) < 0.0 {
-            self.part(model, pair.meeting.key, 0.0);
+            self.ensure_separating(model, pair.meeting.key, 0.0);
         }
         share
     }

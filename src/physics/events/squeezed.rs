@@ -6,7 +6,7 @@
 
 use super::detector::Detector;
 use super::engine::EventDriven;
-use super::impact::Meeting;
+use super::impact::ContactState;
 use super::trajectories::Record;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
@@ -23,7 +23,7 @@ const DOUBTFUL: u64 = 4;
 
 impl<D: Detector> EventDriven<D> {
     /// Whether what is met can't ever be left: then all contacts that hold the sphere so rest from now on.
-    pub(super) fn is_squeezed(&mut self, model: &Model, meeting: &Meeting) -> bool {
+    pub(super) fn is_squeezed(&mut self, model: &Model, meeting: &ContactState) -> bool {
         let events = self.instant.events;
         if meeting.key.0 == Kind::Pair || events < DOUBTFUL || !events.is_power_of_two() {
             return false;
@@ -40,7 +40,7 @@ impl<D: Detector> EventDriven<D> {
                 continue;
             }
             let meeting = self.meeting(model, key);
-            self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
+            self.rests.add(model, &self.flight, self.now, &meeting, self.now);
         }
         true
     }

@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::schedule::cells::Spot;
+use super::schedule::cells::CellRef;
 use super::schedule::prediction::Plan;
 use crate::physics::contact::Kind;
 use crate::physics::model::{Model, Pull};
@@ -20,7 +20,7 @@ use crate::physics::state::State;
 /// Where a sphere was at its own time: 64 bytes, one cache line, twice four numbers for who reads four at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
-pub(super) struct Line {
+pub(super) struct Trajectory {
     /// Centre, m.
     pub(super) x: DVec3,
     /// When, s.
@@ -31,7 +31,7 @@ pub(super) struct Line {
     pub(super) r: f64,
 }
 
-impl Line {
+impl Trajectory {
     /// The path from time `t` (s) on, with acceleration `a`, m/s².
     #[inline(always)]
     pub(super) fn path(&self, a: DVec3, t: f64) -> Path {
@@ -41,9 +41,9 @@ impl Line {
 
     /// The same line, brought to time `t`, s.
     #[inline(always)]
-    pub(super) fn brought(&self, a: DVec3, t: f64) -> Line {
+    pub(super) fn brought(&self, a: DVec3, t: f64) -> Trajectory {
         let Path { x, v, .. } = self.path(a, t);
-        if t == self.t { *self } else { Line { x, t, v, r: self.r } }
+        if t == self.t { *self } else { Trajectory { x, t, v, r: self.r } }
     }
 }
 
@@ -51,10 +51,10 @@ impl Line {
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(128))]
 pub(super) struct Record {
-    pub(super) line: Line,
+    pub(super) line: Trajectory,
     pub(super) plan: Plan,
     /// The cube it is in, if there are cells.
-    pub(super) spot: Spot,
+    pub(super) spot: CellRef,
     /// How often its motion has changed.
     pub(super) stamp: u32,
     /// Its index in the scene.
@@ -69,13 +69,13 @@ struct Past {
     sphere: u32,
     /// When it was replaced, s.
     until: f64,
-    line: Line,
+    line: Trajectory,
     acceleration: DVec3,
 }
 
 /// The records of all spheres.
 #[derive(Debug, Clone)]
-pub(super) struct Flight {
+pub(super) struct Trajectories {
     /// By seat.
     pub(super) records: Vec<Record>,
     /// The seat of each sphere; empty as long as each sits at its index.
@@ -87,12 +87,12 @@ pub(super) struct Flight {
     past: Vec<Past>,
 }
 
-impl Flight {
-    pub(super) fn new(model: &Model, state: &State) -> Flight {
+impl Trajectories {
+    pub(super) fn new(model: &Model, state: &State) -> Trajectories {
         let record = |i: usize| Record {
-            line: Line { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
+            line: Trajectory { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
             plan: Plan::IDLE,
-            spot: Spot::default(),
+            spot: CellRef::default(),
             stamp: 0,
             sphere: i as u32,
             inverse_mass: model.inverse_masses[i],
@@ -103,7 +103,7 @@ impl Flight {
             Pull::PerSphere => (DVec3::ZERO, model.accelerations.clone()),
         };
         let records = (0..model.len()).map(record).collect();
-        Flight { records, seats: Vec::new(), common, accelerations, past: Vec::new() }
+        Trajectories { records, seats: Vec::new(), common, accelerations, past: Vec::new() }
     }
 
     /// Where sphere `i` sits.
@@ -120,7 +120,7 @@ impl Flight {
 
     /// The line of sphere `i`.
     #[inline]
-    pub(super) fn line(&self, i: usize) -> &Line {
+    pub(super) fn line(&self, i: usize) -> &Trajectory {
         &self.records[self.seat(i)].line
     }
 
@@ -187,7 +187,7 @@ impl Flight {
         self.keep(i, t);
         let seat = self.seat(i);
         let line = &mut self.records[seat].line;
-        *line = Line { x, v, t, r: line.r };
+        *line = Trajectory { x, v, t, r: line.r };
     }
 
     /// Brings the line of sphere `i` to time `t`, s.
@@ -203,7 +203,7 @@ impl Flight {
 
     /// From now on the sphere at a seat, which shares what accelerates all, is on another line: what others planned with it is stale.
     #[inline]
-    pub(super) fn turn(&mut self, seat: usize, line: Line) {
+    pub(super) fn turn(&mut self, seat: usize, line: Trajectory) {
         let record = &mut self.records[seat];
         if record.line.t != line.t {
             let past = Past { sphere: record.sphere, until: line.t, line: record.line, acceleration: self.common };

@@ -6,10 +6,10 @@ mod root_detector;
 use super::events::engine::EventDriven;
 use super::method::Description;
 use super::model::Method;
-use root_detector::Roots;
+use root_detector::RootDetector;
 
 /// The method at work.
-pub(super) type Exact = EventDriven<Roots>;
+pub(super) type Exact = EventDriven<RootDetector>;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {

@@ -9,13 +9,13 @@ use crate::physics::wall::Face;
 
 /// The detector of `exact`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Roots;
+pub(crate) struct RootDetector;
 
-impl Detector for Roots {
+impl Detector for RootDetector {
     const SOLVES: bool = true;
 
-    fn new(_: Settings) -> Roots {
-        Roots
+    fn new(_: Settings) -> RootDetector {
+        RootDetector
     }
 
     #[inline]

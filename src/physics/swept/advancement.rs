@@ -11,7 +11,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::separation::{Glance, Pair, Sight, Wall};
+use super::separation::{Gap, Pair, Separation, Wall};
 use crate::physics::contact::Probe;
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::log::Log;
@@ -37,7 +37,7 @@ const PATIENCE: usize = 200;
 
 /// The detector of `swept`, and what it has looked at since it last told.
 #[derive(Debug, Clone)]
-pub(crate) struct Advance {
+pub(crate) struct ConservativeAdvancement {
     /// Deepest overlap accepted, dimensionless.
     tolerance: f64,
     evaluations: Cell<u64>,
@@ -45,12 +45,12 @@ pub(crate) struct Advance {
     probes: RefCell<Vec<(f64, f64)>>,
 }
 
-impl Detector for Advance {
+impl Detector for ConservativeAdvancement {
     const SOLVES: bool = false;
 
-    fn new(settings: Settings) -> Advance {
+    fn new(settings: Settings) -> ConservativeAdvancement {
         let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);
-        Advance { tolerance, evaluations: Cell::new(0), probes: RefCell::default() }
+        ConservativeAdvancement { tolerance, evaluations: Cell::new(0), probes: RefCell::default() }
     }
 
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
@@ -80,34 +80,34 @@ impl Detector for Advance {
     }
 }
 
-impl Advance {
+impl ConservativeAdvancement {
     /// When two bodies are next in contact, or when to look again.
-    fn search(&self, sight: &impl Sight, span: Span) -> Option<Due> {
-        let near = NEAR * sight.reach();
-        let (mut s, mut seen) = (0.0, sight.glance(0.0));
+    fn search(&self, bodies: &impl Separation, span: Span) -> Option<Due> {
+        let near = NEAR * bodies.reach();
+        let (mut s, mut seen) = (0.0, bodies.at(0.0));
         for _ in 0..PATIENCE {
             self.count();
-            if seen.gap <= 0.0 && closes(sight, s, seen) {
+            if seen.gap <= 0.0 && closes(bodies, s, seen) {
                 return Some(Due { after: s, sure: true });
             }
             let wide = seen.gap > 2.0 * near;
-            let step = if wide { wide_step(seen, near) } else { self.close_step(sight, seen) }?;
-            let next = s + step.max(least_step(sight, span.now, s));
+            let step = if wide { wide_step(seen, near) } else { self.close_step(bodies, seen) }?;
+            let next = s + step.max(least_step(bodies, span.now, s));
             if next >= span.before || next.is_nan() {
                 return None;
             }
             let last = std::mem::replace(&mut s, next);
-            seen = sight.glance(s);
+            seen = bodies.at(s);
             if wide && seen.gap <= near && span.now + s > span.now {
                 self.count();
                 return Some(Due { after: s, sure: false });
             }
             if !wide {
                 if seen.gap <= 2.0 * near {
-                    self.note(sight, span.now + s, seen);
+                    self.note(bodies, span.now + s, seen);
                 }
-                if seen.gap < -self.tolerance * sight.reach() && last < s && closes(sight, s, seen) {
-                    return Some(Due { after: self.halve(sight, span.now, [last, s]), sure: true });
+                if seen.gap < -self.tolerance * bodies.reach() && last < s && closes(bodies, s, seen) {
+                    return Some(Due { after: self.halve(bodies, span.now, [last, s]), sure: true });
                 }
             }
         }
@@ -115,13 +115,13 @@ impl Advance {
     }
 
     /// How far to go from a narrow gap, or from an overlap that opens; none if nothing will come of it.
-    fn close_step(&self, sight: &impl Sight, seen: Glance) -> Option<f64> {
-        let Glance { gap, v_n, a_n } = seen;
+    fn close_step(&self, bodies: &impl Separation, seen: Gap) -> Option<f64> {
+        let Gap { gap, v_n, a_n } = seen;
         if gap > 0.0 {
-            return quadratic_fall([gap + 0.5 * self.tolerance * sight.reach(), v_n, 0.5 * a_n]);
+            return quadratic_fall([gap + 0.5 * self.tolerance * bodies.reach(), v_n, 0.5 * a_n]);
         }
         // unless something presses it, it will never be deeper than it is, but for rounding
-        let (pull, rounding) = (sight.pull(), HOP * sight.size());
+        let (pull, rounding) = (bodies.max_acceleration(), HOP * bodies.size());
         if a_n >= 0.0 || v_n * v_n <= 2.0 * pull * rounding {
             return quadratic_fall([rounding, v_n, 0.5 * a_n]);
         }
@@ -129,18 +129,18 @@ impl Advance {
     }
 
     /// The contact within a step (s from now) from outside to deeper than the tolerance.
-    fn halve(&self, sight: &impl Sight, now: f64, [mut outside, mut inside]: [f64; 2]) -> f64 {
+    fn halve(&self, bodies: &impl Separation, now: f64, [mut outside, mut inside]: [f64; 2]) -> f64 {
         loop {
             let middle = 0.5 * (outside + inside);
             if now + middle == now + outside || now + middle == now + inside {
                 return inside;
             }
-            let seen = sight.glance(middle);
+            let seen = bodies.at(middle);
             self.count();
-            self.note(sight, now + middle, seen);
-            if seen.gap > 0.0 || !closes(sight, middle, seen) {
+            self.note(bodies, now + middle, seen);
+            if seen.gap > 0.0 || !closes(bodies, middle, seen) {
                 outside = middle;
-            } else if seen.gap >= -self.tolerance * sight.reach() {
+            } else if seen.gap >= -self.tolerance * bodies.reach() {
                 return middle;
             } else {
                 inside = middle;
@@ -152,25 +152,25 @@ impl Advance {
         self.evaluations.set(self.evaluations.get() + 1);
     }
 
-    fn note(&self, sight: &impl Sight, time: f64, seen: Glance) {
-        self.probes.borrow_mut().push((time, -seen.gap / sight.reach()));
+    fn note(&self, bodies: &impl Separation, time: f64, seen: Gap) {
+        self.probes.borrow_mut().push((time, -seen.gap / bodies.reach()));
     }
 }
 
 /// How far to go from a wide gap: to where it may be half of what counts as near.
-fn wide_step(seen: Glance, near: f64) -> Option<f64> {
+fn wide_step(seen: Gap, near: f64) -> Option<f64> {
     quadratic_fall([seen.gap - 0.5 * near, seen.v_n, 0.5 * seen.a_n])
 }
 
 /// Whether the gap is about to shrink. Where only rounding says so, what presses decides: of three spheres in a row that
 /// have stopped approaching each other, rounding would otherwise have the outer two push the middle one to and fro.
-fn closes(sight: &impl Sight, s: f64, seen: Glance) -> bool {
-    seen.v_n < 0.0 && seen.v_n < -ROUNDING * sight.speed(s) || seen.v_n <= 0.0 && sight.bend(s) < 0.0
+fn closes(bodies: &impl Separation, s: f64, seen: Gap) -> bool {
+    seen.v_n < 0.0 && seen.v_n < -ROUNDING * bodies.speed(s) || seen.v_n <= 0.0 && bodies.acceleration(s) < 0.0
 }
 
 /// The shortest step worth a look `s` seconds from now, s: one that the clock can tell from none, and in which what moves
 /// goes as far as coordinates can tell.
-fn least_step(sight: &impl Sight, now: f64, s: f64) -> f64 {
-    let (time, way) = ((now + s).abs(), f64::EPSILON * sight.size());
-    (time.next_up() - time).max(way / (sight.speed(s) + (sight.pull() * way).sqrt()))
+fn least_step(bodies: &impl Separation, now: f64, s: f64) -> f64 {
+    let (time, way) = ((now + s).abs(), f64::EPSILON * bodies.size());
+    (time.next_up() - time).max(way / (bodies.speed(s) + (bodies.max_acceleration() * way).sqrt()))
 }

@@ -13,10 +13,10 @@ mod separation;
 use super::events::engine::EventDriven;
 use super::method::Description;
 use super::model::Method;
-use advancement::Advance;
+use advancement::ConservativeAdvancement;
 
 /// The method at work.
-pub(super) type Swept = EventDriven<Advance>;
+pub(super) type Swept = EventDriven<ConservativeAdvancement>;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {

@@ -9,7 +9,7 @@ use crate::physics::wall_parts::part_ahead;
 
 /// Two bodies at one instant.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Glance {
+pub(super) struct Gap {
     /// m; negative: overlapping.
     pub(super) gap: f64,
     /// Normal velocity, m/s, in the response's own expression.
@@ -20,17 +20,17 @@ pub(super) struct Glance {
 }
 
 /// Two bodies on their ways.
-pub(super) trait Sight {
+pub(super) trait Separation {
     /// How they are `s` seconds from now.
-    fn glance(&self, s: f64) -> Glance;
+    fn at(&self, s: f64) -> Gap;
     /// How fast v_n grows just from then on, m/s², curvature included.
-    fn bend(&self, s: f64) -> f64;
+    fn acceleration(&self, s: f64) -> f64;
     /// What the degree is measured by, m: r, or r₁ + r₂.
     fn reach(&self) -> f64;
     /// Size of the coordinates that the gap is a difference of, m.
     fn size(&self) -> f64;
     /// Largest acceleration along any normal, m/s².
-    fn pull(&self) -> f64;
+    fn max_acceleration(&self) -> f64;
     /// Size of the velocities that v_n is a difference of, m/s.
     fn speed(&self, s: f64) -> f64;
 }
@@ -42,14 +42,14 @@ pub(super) struct Wall<'a> {
     pub(super) face: &'a Face,
 }
 
-impl Sight for Wall<'_> {
-    fn glance(&self, s: f64) -> Glance {
+impl Separation for Wall<'_> {
+    fn at(&self, s: f64) -> Gap {
         let touch = touch(self.face, self.path.at(s), self.r);
         let v_n = normal_velocity(self.path.velocity(s), DVec3::ZERO, touch.normal);
-        Glance { gap: touch.gap, v_n, a_n: touch.normal.dot(self.path.a) }
+        Gap { gap: touch.gap, v_n, a_n: touch.normal.dot(self.path.a) }
     }
 
-    fn bend(&self, s: f64) -> f64 {
+    fn acceleration(&self, s: f64) -> f64 {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let normal = touch(self.face, x, self.r).normal;
         let part = part_ahead(self.face, x, v, self.path.a, self.r);
@@ -64,7 +64,7 @@ impl Sight for Wall<'_> {
         self.path.x.abs().max_element() + self.r
     }
 
-    fn pull(&self) -> f64 {
+    fn max_acceleration(&self) -> f64 {
         self.path.a.length()
     }
 
@@ -93,15 +93,15 @@ impl<'a> Pair<'a> {
     }
 }
 
-impl Sight for Pair<'_> {
-    fn glance(&self, s: f64) -> Glance {
+impl Separation for Pair<'_> {
+    fn at(&self, s: f64) -> Gap {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let distance = x.length();
         let a_n = (x / distance).dot(self.path.a);
-        Glance { gap: distance - self.reach, v_n: pair_normal_velocity(x, v), a_n }
+        Gap { gap: distance - self.reach, v_n: pair_normal_velocity(x, v), a_n }
     }
 
-    fn bend(&self, s: f64) -> f64 {
+    fn acceleration(&self, s: f64) -> f64 {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let distance = x.length();
         let normal = x / distance;
@@ -117,7 +117,7 @@ impl Sight for Pair<'_> {
         self.paths.iter().map(|path| path.x.abs().max_element()).fold(self.reach, f64::max)
     }
 
-    fn pull(&self) -> f64 {
+    fn max_acceleration(&self) -> f64 {
         self.path.a.length()
     }
 

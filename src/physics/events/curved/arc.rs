@@ -14,8 +14,8 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed};
-use super::equation::{Motion, loaded};
-use super::hermite::{Polynomial, cube_root, fall_below_zero};
+use super::equation::{ConstrainedMotion, loaded};
+use super::hermite::{Hermite, cube_root, fall_below_zero};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
 const TOLERANCE: f64 = 1e-15;
@@ -98,9 +98,9 @@ impl Arc {
         if time >= self.span {
             return self.end.bodies.clone();
         }
-        let motion = Motion::held_by(&self.start.bodies, contacts, &self.loaded);
+        let motion = ConstrainedMotion::held_by(&self.start.bodies, contacts, &self.loaded);
         if time > BEGINNING * self.span {
-            return motion.moved(&self.start.bodies, time);
+            return motion.step_rkf8(&self.start.bodies, time);
         }
         let mut bodies = self.at(time);
         motion.restore(&mut bodies);
@@ -109,7 +109,7 @@ impl Arc {
 
     fn of(mut bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
         let loaded = loaded(&bodies, contacts);
-        let motion = Motion::held_by(&bodies, contacts, &loaded);
+        let motion = ConstrainedMotion::held_by(&bodies, contacts, &loaded);
         motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
         let scale = start.time_scale();
@@ -117,11 +117,11 @@ impl Arc {
         let mut span = if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale };
         // The error falls with the sixth power, so that a second try nearly always does.
         for _ in 0..30 {
-            let bodies = motion.moved(&start.bodies, span);
+            let bodies = motion.step_rkf8(&start.bodies, span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let (start, loaded) = (start.clone(), loaded.clone());
             let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
-            let middle = motion.moved(&arc.start.bodies, 0.5 * span);
+            let middle = motion.step_rkf8(&arc.start.bodies, 0.5 * span);
             let growth = cube_root(arc.allowance(&middle).sqrt());
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= 1.0 || span <= SHORT * scale {
@@ -135,8 +135,8 @@ impl Arc {
     }
 
     /// An arc so short that neither its integration nor its polynomial needs looking at.
-    fn brief(start: Ends, motion: &Motion, span: f64, loaded: Vec<bool>) -> Arc {
-        let bodies = motion.moved_a_little(&start.bodies, span);
+    fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
+        let bodies = motion.step_rk4(&start.bodies, span);
         let end = Ends { a: motion.accelerations(&bodies).0, bodies };
         let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
         arc.cut_short(motion, &LOOKS[3..]);
@@ -174,24 +174,24 @@ impl Arc {
     }
 
     /// The path of one body.
-    fn polynomial(&self, i: usize) -> Polynomial {
+    fn polynomial(&self, i: usize) -> Hermite {
         let (start, end, h) = (&self.start.bodies[i], &self.end.bodies[i], self.span);
         let a = self.start.a[i];
         if h == 0.0 {
-            return Polynomial { x: start.x, v: start.v, a, b: [DVec3::ZERO; 3], span: 1.0 };
+            return Hermite { x: start.x, v: start.v, a, b: [DVec3::ZERO; 3], span: 1.0 };
         }
         // What the end leaves to the cubic and higher powers, all as lengths.
         let dx = end.x - start.x - (start.v + a * (0.5 * h)) * h;
         let dv = (end.v - start.v - a * h) * h;
         let da = (self.end.a[i] - a) * (h * h);
         let b = [dx * 10.0 - dv * 4.0 + da * 0.5, dv * 7.0 - dx * 15.0 - da, dx * 6.0 - dv * 3.0 + da * 0.5];
-        Polynomial { x: start.x, v: start.v, a, b, span: h }
+        Hermite { x: start.x, v: start.v, a, b, span: h }
     }
 
     /// Ends the arc where a contact changes first, as far as these fractions of it show, [`OVERSHOOT`] of it late.
-    fn cut_short(&mut self, motion: &Motion, looks: &[f64]) {
+    fn cut_short(&mut self, motion: &ConstrainedMotion, looks: &[f64]) {
         let before = motion.marks(&self.start.bodies);
-        let margin = |time: f64| motion.margin(&self.at(time), &before);
+        let margin = |time: f64| motion.distance_to_change(&self.at(time), &before);
         let mut good = (0.0, f64::INFINITY);
         for share in looks {
             let look = (share * self.span, margin(share * self.span));
@@ -344,7 +344,7 @@ mod tests {
         let corner = face.shape.corners()[2];
         let start = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
         let mut arc = Arc::new(start.clone(), &contacts);
-        let motion = Motion::held_by(&start, &contacts, &loaded(&start, &contacts));
+        let motion = ConstrainedMotion::held_by(&start, &contacts, &loaded(&start, &contacts));
         for _ in 0..5 {
             let mut from = 0.0;
             while from < arc.length {
@@ -354,7 +354,7 @@ mod tests {
                 for share in [0.25, 0.5, 2.0 / 3.0, 0.9] {
                     let s = share * h;
                     let chord = one.x + one.v * s + a * (0.5 * s * s);
-                    let real = motion.moved(&arc.start.bodies, from + s)[0].x;
+                    let real = motion.step_rkf8(&arc.start.bodies, from + s)[0].x;
                     // 1e-13 and, of the arc, 1e-15 of coordinates below 1.3 m.
                     assert!(chord.distance(real) < 1.32e-13, "{:e}", chord.distance(real));
                     assert!(arc.at(from + s)[0].x.distance(real) < 2e-15);
@@ -373,10 +373,10 @@ mod tests {
         let brief = Arc::new(start.clone(), &contacts);
         let long = brief.go_on(&contacts);
         for arc in [brief, long] {
-            let motion = Motion::held_by(&arc.start.bodies, &contacts, &arc.loaded);
+            let motion = ConstrainedMotion::held_by(&arc.start.bodies, &contacts, &arc.loaded);
             for share in [1e-9, 1e-6, 0.99 * BEGINNING] {
                 let time = share * arc.span;
-                let (read, real) = (arc.real(time, &contacts)[0], motion.moved(&arc.start.bodies, time)[0]);
+                let (read, real) = (arc.real(time, &contacts)[0], motion.step_rkf8(&arc.start.bodies, time)[0]);
                 // An ulp or two of places below 1.3 m and of speeds below 1 m/s.
                 assert!(read.x.distance(real.x) <= 5e-16, "{:e} m", read.x.distance(real.x));
                 assert!(read.v.distance(real.v) <= 5e-16, "{:e} m/s", read.v.distance(real.v));
@@ -390,9 +390,10 @@ mod tests {
         let contacts = [Closed { a: 0, on: On::Wall(&face, Part::Corner(2)) }];
         let corner = face.shape.corners()[2];
         let begin = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
-        let motion = Motion::held_by(&begin, &contacts, &loaded(&begin, &contacts));
-        let go =
-            |parts: u32| (0..parts).fold(begin.clone(), |bodies, _| motion.moved(&bodies, 0.1 / f64::from(parts)))[0];
+        let motion = ConstrainedMotion::held_by(&begin, &contacts, &loaded(&begin, &contacts));
+        let go = |parts: u32| {
+            (0..parts).fold(begin.clone(), |bodies, _| motion.step_rkf8(&bodies, 0.1 / f64::from(parts)))[0]
+        };
         let (few, many) = (go(10), go(1000));
         // Each of a thousand steps rounds to 1e-16; the error of ten steps of order 8 is below that.
         assert!(few.x.distance(many.x) < 1e-13 && few.v.distance(many.v) < 1e-12, "{few:?} {many:?}");

@@ -11,7 +11,7 @@ use crate::physics::wall_parts::{BORDER, room};
 const IDLE: f64 = 1e-11;
 
 /// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
-const AJAR: f64 = 1e-6;
+const MAX_IDLE_OPENING: f64 = 1e-6;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
@@ -21,7 +21,7 @@ const SUNK: f64 = 1e-13;
 const HEALED: f64 = 1e-10;
 
 /// The differential equation of an island while the contacts that carry a load now go on holding.
-pub(crate) struct Motion<'a> {
+pub(crate) struct ConstrainedMotion<'a> {
     holding: Vec<Closed<'a>>,
     /// The gaps to keep, m: what rounding, or the scene, has left of 0. Nothing must jump, but of small overlaps half is
     /// healed by every arc: where a contact opens and closes over and over, they would add up.
@@ -31,9 +31,9 @@ pub(crate) struct Motion<'a> {
     inverse_mass: Vec<f64>,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> ConstrainedMotion<'a> {
     /// The motion from `bodies` on while the loaded contacts hold.
-    pub(crate) fn held_by(bodies: &[Body], contacts: &[Closed<'a>], loaded: &[bool]) -> Motion<'a> {
+    pub(crate) fn held_by(bodies: &[Body], contacts: &[Closed<'a>], loaded: &[bool]) -> ConstrainedMotion<'a> {
         let pick = |wanted: bool| {
             let of = |(_, loaded): &(&Closed<'a>, &bool)| **loaded == wanted;
             contacts.iter().zip(loaded).filter(of).map(|(&contact, _)| contact).collect()
@@ -45,7 +45,7 @@ impl<'a> Motion<'a> {
             if gap < 0.0 && gap > small { 0.5 * gap } else { gap }
         };
         let gaps = holding.iter().map(kept).collect();
-        Motion { holding, gaps, idle, inverse_mass: bodies.iter().map(|body| body.inverse_mass).collect() }
+        ConstrainedMotion { holding, gaps, idle, inverse_mass: bodies.iter().map(|body| body.inverse_mass).collect() }
     }
 
     /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
@@ -60,13 +60,13 @@ impl<'a> Motion<'a> {
     }
 
     /// The bodies `h` seconds later.
-    pub(crate) fn moved(&self, start: &[Body], h: f64) -> Vec<Body> {
+    pub(crate) fn step_rkf8(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &STAGES, &ORDER_8)
     }
 
     /// The same by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
     /// rounding.
-    pub(crate) fn moved_a_little(&self, start: &[Body], h: f64) -> Vec<Body> {
+    pub(crate) fn step_rk4(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &CLASSICAL, &ORDER_4)
     }
 
@@ -134,7 +134,7 @@ impl<'a> Motion<'a> {
     /// The least that is left before something changes: load as an acceleration in units of what is applied; room in
     /// radii, where what began at the border or beyond counts only if it has gone on outwards, beyond rounding; what an
     /// idle contact may still open or close.
-    pub(crate) fn margin(&self, bodies: &[Body], before: &Marks) -> f64 {
+    pub(crate) fn distance_to_change(&self, bodies: &[Body], before: &Marks) -> f64 {
         let (a, forces) = self.accelerations(bodies);
         let loads = self.holding.iter().zip(forces);
         let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
@@ -143,7 +143,7 @@ impl<'a> Motion<'a> {
         let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
         let idle = openings.map(|(opening, before)| {
             let closing = IDLE + opening - before.min(0.0);
-            closing.min(AJAR + before.max(0.0) - opening)
+            closing.min(MAX_IDLE_OPENING + before.max(0.0) - opening)
         });
         let sunk = |(gap, before): (f64, &f64)| gap - before.min(0.0) + SUNK;
         let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).map(sunk);

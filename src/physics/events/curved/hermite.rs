@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// x + v t + a t²/2 + s³ (b₃ + b₄ s + b₅ s²), s = t/span.
-pub(crate) struct Polynomial {
+pub(crate) struct Hermite {
     pub(crate) x: DVec3,
     pub(crate) v: DVec3,
     pub(crate) a: DVec3,
@@ -11,7 +11,7 @@ pub(crate) struct Polynomial {
     pub(crate) span: f64,
 }
 
-impl Polynomial {
+impl Hermite {
     /// Position and velocity.
     pub(crate) fn read(&self, t: f64) -> (DVec3, DVec3) {
         let (s, [b3, b4, b5]) = (t / self.span, self.b);

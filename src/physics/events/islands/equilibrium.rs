@@ -49,7 +49,7 @@ pub(crate) struct Settled {
 ///
 /// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
 /// clock or the coordinates can tell is closed.
-pub(crate) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
+pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
     let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
@@ -92,9 +92,9 @@ pub(crate) fn settle(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Set
     let turns = |contact: &Resting| settled.turns(contact, bodies);
     settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && turns(&resting[index]));
     for &index in &closed {
-        settled.fate[index] = settled.judged(index, &resting[index], bodies);
+        settled.fate[index] = settled.fate_of(index, &resting[index], bodies);
     }
-    settled.still(bodies, &inverse_mass, &resting, &slack);
+    settled.clear_normal_velocity(bodies, &inverse_mass, &resting, &slack);
     settled.stop(bodies, tick);
     settled.let_go(bodies, &resting);
     settled
@@ -126,7 +126,7 @@ fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
 
 impl Settled {
     /// What becomes of a contact that is closed.
-    fn judged(&self, index: usize, contact: &Resting, bodies: &[Body]) -> Fate {
+    fn fate_of(&self, index: usize, contact: &Resting, bodies: &[Body]) -> Fate {
         if self.forces[index] > 0.0 {
             return Fate::Loaded;
         }
@@ -170,7 +170,7 @@ impl Settled {
     /// contact of the island, idle or just opening: nothing else would, and to part them afterwards would push one body
     /// alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
     /// stand still on both would stop the motion along them, and the one that opens lets go instead.
-    fn still(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
+    fn clear_normal_velocity(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
         let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
         let mut holds: Vec<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
         let mut v = before.clone();

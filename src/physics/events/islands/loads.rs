@@ -42,7 +42,7 @@ impl<D: Detector> EventDriven<D> {
             let impulse = Load { since: held.load.since.max(start), ..held.load }.given(end);
             let begun = |row: &crate::physics::Contact| row.class == Class::Rest && row.key() == key;
             if held.announced && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
-                let row = self.shown(model, key, end).row(end, Class::Rest, impulse, 0.0);
+                let row = self.contact_geometry(model, key, end).row(end, Class::Rest, impulse, 0.0);
                 log.contacts.push(crate::physics::Contact { approach_speed: 0.0, ..row });
             }
         }

@@ -7,8 +7,8 @@ use crate::physics::contact::{Key, Kind};
 use crate::physics::events::bounce::Rub;
 use crate::physics::events::curved::arc::Arc;
 use crate::physics::events::curved::bodies::{Body, Closed, On};
-use crate::physics::events::impact::Meeting;
-use crate::physics::events::trajectories::Flight;
+use crate::physics::events::impact::ContactState;
+use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::state::State;
 use crate::physics::wall::Part;
@@ -19,7 +19,7 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// A contact that rests, or is about to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Held {
+pub(super) struct RestingContact {
     /// The part of the wall it rests on; for pairs without meaning.
     pub(super) part: Part,
     /// Whether its `rest` row has been written.
@@ -156,7 +156,7 @@ pub(super) struct Past {
 /// All resting contacts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rests {
-    pub(super) held: BTreeMap<Key, Held>,
+    pub(super) held: BTreeMap<Key, RestingContact>,
     /// Contacts by sphere; empty until something rests.
     pub(super) of: Vec<Vec<Key>>,
     pub(super) islands: Vec<Option<Island>>,
@@ -238,7 +238,14 @@ impl Rests {
     }
 
     /// A contact may rest from now on: the island it belongs to will decide.
-    pub(crate) fn propose(&mut self, model: &Model, flight: &Flight, now: f64, meeting: &Meeting, bounces_until: f64) {
+    pub(crate) fn add(
+        &mut self,
+        model: &Model,
+        flight: &Trajectories,
+        now: f64,
+        meeting: &ContactState,
+        bounces_until: f64,
+    ) {
         let (kind, a, b) = meeting.key;
         let part = match kind {
             Kind::Wall => {
@@ -252,7 +259,7 @@ impl Rests {
             self.of = vec![Vec::new(); model.len()];
             self.island_of = vec![NONE; model.len()];
         }
-        let held = Held {
+        let held = RestingContact {
             part,
             announced: false,
             v_n: meeting.v_n,
@@ -314,7 +321,7 @@ impl Rests {
         found.into_iter().collect()
     }
 
-    pub(super) fn dissolve(&mut self, i: usize, now: f64) {
+    pub(super) fn remove_island(&mut self, i: usize, now: f64) {
         let number = self.island_of[i];
         if number == NONE {
             return;
@@ -330,7 +337,7 @@ impl Rests {
         }
     }
 
-    pub(super) fn found(&mut self, island: Island, now: f64) {
+    pub(super) fn insert_island(&mut self, island: Island, now: f64) {
         if island.curve.is_some() {
             self.count_curves(now, 1);
         }
@@ -345,7 +352,7 @@ impl Rests {
     }
 
     /// Puts the spheres of curved islands where they really are, in a state of the last frame: their lines are chords.
-    pub(crate) fn bend(&self, model: &Model, state: &mut State) {
+    pub(crate) fn arcs_into(&self, model: &Model, state: &mut State) {
         let over = self.past.iter().filter(|past| state.t < past.until).map(|past| (&past.spheres, &past.curve));
         let current = self.islands.iter().flatten();
         let current = current.filter_map(|island| Some((&island.spheres, island.curve.as_ref()?)));
@@ -359,7 +366,7 @@ impl Rests {
     }
 
     /// Remembers a chord that was followed until `now` (s), for states read within the frame.
-    pub(super) fn keep(&mut self, spheres: &[usize], curve: &Curve, now: f64) {
+    pub(super) fn remember_chord(&mut self, spheres: &[usize], curve: &Curve, now: f64) {
         if curve.from < now {
             self.past.push(Past { spheres: spheres.to_vec(), curve: curve.clone(), until: now });
         }

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use super::equilibrium::{ROUNDING, Settled, settle};
-use super::resting::{Curve, Held, Island, IslandContact, Other, closed};
+use super::equilibrium::{ROUNDING, Settled, solve_island};
+use super::resting::{Curve, Island, IslandContact, Other, RestingContact, closed};
 use crate::physics::contact::{Class, Key, Kind};
 use crate::physics::events::curved::bodies::Body;
 use crate::physics::events::detector::Detector;
 use crate::physics::events::engine::EventDriven;
-use crate::physics::events::impact::{Meeting, ZENO};
+use crate::physics::events::impact::{ContactState, ZENO};
 use crate::physics::events::rest_criteria::SMALL_HOP;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
@@ -40,7 +40,7 @@ impl<D: Detector> EventDriven<D> {
         let (spheres, followed) = (spheres.clone(), curve.clone());
         // the lines are off the chord now: it must not be followed, nor the step be read, any longer
         curve.from = f64::INFINITY;
-        self.rests.keep(&spheres, &followed, now);
+        self.rests.remember_chord(&spheres, &followed, now);
         let bodies = followed.real(model, now - followed.from);
         for (body, &sphere) in bodies.iter().zip(spheres.iter()) {
             self.flight.rewrite(sphere, now, body.x, body.v);
@@ -55,7 +55,7 @@ impl<D: Detector> EventDriven<D> {
         }
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
-            let meeting = self.seen(model, key, self.now);
+            let meeting = self.contact_state(model, key, self.now);
             if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key) {
                 continue;
             }
@@ -70,7 +70,7 @@ impl<D: Detector> EventDriven<D> {
 
     fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
         if self.rests.drop(key) {
-            let meeting = self.seen(model, key, self.now);
+            let meeting = self.contact_state(model, key, self.now);
             let row = meeting.row(self.now, Class::Release, 0.0, meeting.v_n);
             log.contacts.push(row);
             log.event(row);
@@ -83,8 +83,8 @@ impl<D: Detector> EventDriven<D> {
         let Some(island) = self.rests.island(leader) else { return };
         let spheres = island.spheres.clone();
         if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
-            self.rests.keep(&spheres, &curve, now);
-            self.follow(&spheres, curve.next(model, now));
+            self.rests.remember_chord(&spheres, &curve, now);
+            self.set_chord(&spheres, curve.next(model, now));
             return self.moved(model, &spheres);
         }
         for &i in &spheres {
@@ -103,7 +103,7 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// Sends the spheres along a chord, and gives it to their island.
-    fn follow(&mut self, spheres: &[usize], curve: Curve) {
+    fn set_chord(&mut self, spheres: &[usize], curve: Curve) {
         let h = curve.length;
         for ((&i, start), end) in spheres.iter().zip(curve.at(0.0)).zip(curve.at(h)) {
             self.flight.rewrite(i, self.now, start.x, start.v);
@@ -116,7 +116,7 @@ impl<D: Detector> EventDriven<D> {
             Some(island) => (island.end, island.curve) = (until, Some(curve)),
             None => {
                 let island = Island { spheres: spheres.to_vec(), end: until, curve: Some(curve) };
-                self.rests.found(island, self.now);
+                self.rests.insert_island(island, self.now);
             }
         }
     }
@@ -139,7 +139,7 @@ impl<D: Detector> EventDriven<D> {
         }
         self.rests.dirty.clear();
         for &i in &spheres {
-            self.rests.dissolve(i, self.now);
+            self.rests.remove_island(i, self.now);
         }
         for &i in &spheres {
             self.add_walls_at_point(model, i);
@@ -190,10 +190,10 @@ impl<D: Detector> EventDriven<D> {
             if at.gap > most || !held.iter().any(near) {
                 continue;
             }
-            let meeting = self.seen(model, (Kind::Wall, i, wall), self.now);
+            let meeting = self.contact_state(model, (Kind::Wall, i, wall), self.now);
             let pull = model.acceleration(i).length();
             if meeting.v_n.abs() <= ROUNDING * path.v.length() || meeting.hops_within_rounding(pull) {
-                self.rests.propose(model, &self.flight, self.now, &meeting, self.now);
+                self.rests.add(model, &self.flight, self.now, &meeting, self.now);
             }
         }
     }
@@ -208,7 +208,7 @@ impl<D: Detector> EventDriven<D> {
     fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
         self.rub_off(model, keys);
         let (spheres, mut bodies, contacts) = self.island_of(model, keys);
-        let settled = settle(&mut bodies, &closed(model, &contacts), ZENO * self.tick());
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), ZENO * self.clock_ulp());
         if !settled.converged {
             return Err(self.not_held(keys));
         }
@@ -216,14 +216,14 @@ impl<D: Detector> EventDriven<D> {
             self.flight.rewrite(i, self.now, bodies[place].x, bodies[place].v);
             self.flight.accelerate(i, settled.a[place] * self.share_of_pull(keys));
         }
-        self.announce(model, log, keys, &settled);
+        self.write_rest_events(model, log, keys, &settled);
         self.carry(keys, &settled.forces);
         let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
         let opening: Vec<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
         let (stuck, opening): (Vec<Key>, Vec<Key>) = opening.into_iter().partition(|&key| self.instant.is_stuck(key));
         for &key in &opening {
             self.release(model, log, key);
-            self.part(model, key, 0.0);
+            self.ensure_separating(model, key, 0.0);
         }
         if !opening.is_empty() {
             let kept = keys.iter().filter(|key| opening.binary_search(key).is_err());
@@ -234,13 +234,13 @@ impl<D: Detector> EventDriven<D> {
             self.rests.hold_until(key, self.now + pause);
         }
         if settled.curved {
-            self.follow(
+            self.set_chord(
                 &spheres,
                 Curve::new(model, bodies, contacts, self.now).cut(pause.min(self.rubbing_time(keys) - self.now)),
             );
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
-            self.rests.found(Island { spheres, end, curve: None }, self.now);
+            self.rests.insert_island(Island { spheres, end, curve: None }, self.now);
         }
         Ok(None)
     }
@@ -248,11 +248,11 @@ impl<D: Detector> EventDriven<D> {
     /// Bounces that were summed up are over: what they have left of the tangential velocity.
     fn rub_off(&mut self, model: &Model, keys: &[Key]) {
         for &key in keys {
-            let due = |held: &&mut Held| held.settles_at <= self.now;
+            let due = |held: &&mut RestingContact| held.settles_at <= self.now;
             let Some(rub) = self.rests.held.get_mut(&key).filter(due).and_then(|held| held.rub.take()) else {
                 continue;
             };
-            let (normal, line) = (self.seen(model, key, self.now).normal, *self.flight.line(key.1));
+            let (normal, line) = (self.contact_state(model, key, self.now).normal, *self.flight.line(key.1));
             self.flight.rewrite(key.1, self.now, line.x, rub.end(line.v, normal));
         }
     }
@@ -274,7 +274,7 @@ impl<D: Detector> EventDriven<D> {
     fn pause(&self, bodies: &[Body]) -> f64 {
         let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
         let squared = bodies.iter().map(of).fold(f64::INFINITY, f64::min);
-        (PAUSE * squared.sqrt()).max(ZENO * self.tick())
+        (PAUSE * squared.sqrt()).max(ZENO * self.clock_ulp())
     }
 
     /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
@@ -307,9 +307,9 @@ impl<D: Detector> EventDriven<D> {
 
     /// Writes a `rest` row for every contact that begins to carry a load, and for every other one whose impulse stopped an
     /// approach, here or further up the pile: without it, a change of velocity would stand nowhere.
-    fn announce(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
+    fn write_rest_events(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
-            let mut meeting = self.seen(model, key, self.now);
+            let mut meeting = self.contact_state(model, key, self.now);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
             let begins = settled.fate[index] == Fate::Loaded && !held.announced;
             // a contact whose bounces are summed up rests when they are over, unless more than a bounce stops it
@@ -359,7 +359,7 @@ impl<D: Detector> EventDriven<D> {
 }
 
 /// Whether an impulse (N s) changes v_n by no more than one of the bounces that are summed up.
-fn is_a_bounce(model: &Model, meeting: &Meeting, impulse: f64) -> bool {
+fn is_a_bounce(model: &Model, meeting: &ContactState, impulse: f64) -> bool {
     let (kind, a, b) = meeting.key;
     let of = |i: usize| (impulse * model.inverse_masses[i], model.acceleration(i).length());
     let ((one, pull), (other, more)) = (of(a), if kind == Kind::Pair { of(b) } else { (0.0, 0.0) });

@@ -1,6 +1,6 @@
 //! Who is near a sphere.
 
-use super::simd::{FOURS, Four};
+use super::simd::{BATCHES, PairBatch};
 
 /// What the 27 places around a sphere hold without spilling is fewer than this.
 pub(crate) const MOST_NEAR: usize = 128;
@@ -10,17 +10,17 @@ pub(crate) const ROOM: usize = MOST_NEAR + 8;
 
 /// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
 #[derive(Debug, Clone)]
-pub(crate) struct Near {
+pub(crate) struct Candidates {
     pub(crate) seats: Vec<u32>,
     pub(crate) count: usize,
     /// Room to look at them four by four.
-    pub(crate) fours: Box<[Four; FOURS]>,
+    pub(crate) fours: Box<[PairBatch; BATCHES]>,
 }
 
-impl Near {
+impl Candidates {
     /// Nobody.
-    pub(crate) fn nobody() -> Near {
-        Near { seats: vec![0; ROOM], count: 0, fours: Box::new([Four::NEVER; FOURS]) }
+    pub(crate) fn empty() -> Candidates {
+        Candidates { seats: vec![0; ROOM], count: 0, fours: Box::new([PairBatch::NEVER; BATCHES]) }
     }
 
     /// Who is near.
@@ -31,13 +31,13 @@ impl Near {
 
     /// The same made up to fours by `seat`, and the room to look at them.
     #[inline]
-    pub(crate) fn padded(&mut self, seat: usize) -> (&[u32], &mut [Four; FOURS]) {
+    pub(crate) fn padded(&mut self, seat: usize) -> (&[u32], &mut [PairBatch; BATCHES]) {
         self.seats[self.count..self.count + 4].fill(seat as u32);
         (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
     }
 
     /// All of so many seats.
-    pub(crate) fn everybody(&mut self, seats: usize) {
+    pub(crate) fn all(&mut self, seats: usize) {
         self.seats.resize(self.seats.len().max(seats + 5), 0);
         (0_u32..).zip(&mut self.seats[..seats]).for_each(|(seat, place)| *place = seat);
         self.count = seats;

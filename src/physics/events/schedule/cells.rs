@@ -10,8 +10,8 @@
 
 use glam::DVec3;
 
-use super::candidates::{MOST_NEAR, Near, ROOM};
-use super::simd::Lanes;
+use super::candidates::{Candidates, MOST_NEAR, ROOM};
+use super::simd::Simd;
 use crate::physics::model::Model;
 use crate::physics::path::Path;
 use crate::roots::quadratic_fall;
@@ -40,21 +40,21 @@ const WALLS: u32 = 1 << 29;
 const BORDER: u32 = 1 << 28;
 
 /// In a mark, the bits of the seat spilled last; all of them: nobody.
-const NOBODY: u32 = BORDER - 1;
+const NONE: u32 = BORDER - 1;
 
 /// A cube.
-pub(crate) type Cube = [i32; 3];
+pub(crate) type CellCoordinates = [i32; 3];
 
 /// Where a sphere is: its cube, and that cube's place in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Spot {
-    pub(crate) cube: Cube,
+pub(crate) struct CellRef {
+    pub(crate) cube: CellCoordinates,
     pub(crate) place: u32,
 }
 
-impl Spot {
+impl CellRef {
     /// In no cube.
-    pub(crate) const LOOSE: Spot = Spot { cube: [0; 3], place: u32::MAX };
+    pub(crate) const LOOSE: CellRef = CellRef { cube: [0; 3], place: u32::MAX };
 
     #[inline]
     pub(crate) fn is_loose(self) -> bool {
@@ -64,7 +64,7 @@ impl Spot {
 
 /// A sphere leaves its cube: the axis, and +1 or −1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Way {
+pub(crate) struct Exit {
     /// 0, 1 or 2.
     pub(crate) axis: u8,
     /// +1 or −1.
@@ -78,22 +78,22 @@ pub(crate) struct Way {
 struct Place([u32; PLACE]);
 
 impl Place {
-    const EMPTY: Place = Place([0, 0, 0, NOBODY]);
+    const EMPTY: Place = Place([0, 0, 0, NONE]);
 
     fn count(&self) -> usize {
         (self.0[SLOTS] >> COUNT) as usize
     }
 
     fn spilled(&self) -> u32 {
-        self.0[SLOTS] & NOBODY
+        self.0[SLOTS] & NONE
     }
 
     fn spill(&mut self, seat: u32) {
-        self.0[SLOTS] = self.0[SLOTS] & !NOBODY | seat;
+        self.0[SLOTS] = self.0[SLOTS] & !NONE | seat;
     }
 
     fn empty(&mut self) {
-        *self = Place([0, 0, 0, self.0[SLOTS] & (WALLS | BORDER) | NOBODY]);
+        *self = Place([0, 0, 0, self.0[SLOTS] & (WALLS | BORDER) | NONE]);
     }
 }
 
@@ -163,7 +163,7 @@ impl Cells {
         self.loose.clear();
         self.spilled = 0;
         if !self.next.is_empty() {
-            self.next = vec![NOBODY; places.len()];
+            self.next = vec![NONE; places.len()];
         }
         let seats = places.len();
         for (seat, place) in places.enumerate() {
@@ -173,7 +173,7 @@ impl Cells {
 
     /// Enters a seat, one of so many, in a place or among the loose ones.
     pub(crate) fn enter(&mut self, seat: usize, place: u32, seats: usize) {
-        match (Spot { place, ..Spot::default() }).is_loose() {
+        match (CellRef { place, ..CellRef::default() }).is_loose() {
             true => self.loose.push(seat as u32),
             false => self.link(seat, place, seats),
         }
@@ -181,7 +181,7 @@ impl Cells {
 
     /// Takes a seat from where it was entered.
     pub(crate) fn leave(&mut self, seat: usize, place: u32) {
-        match (Spot { place, ..Spot::default() }).is_loose() {
+        match (CellRef { place, ..CellRef::default() }).is_loose() {
             true => self.loose.retain(|&other| other as usize != seat),
             false => self.unlink(seat as u32, place),
         }
@@ -191,9 +191,9 @@ impl Cells {
     /// those that came within reach, since the ones in no cube have been looked at before. A sphere that is itself in no
     /// cube may meet all.
     #[inline(always)]
-    pub(crate) fn look(&self, spot: Spot, way: Option<Way>, near: &mut Near, seats: usize) {
+    pub(crate) fn look(&self, spot: CellRef, way: Option<Exit>, near: &mut Candidates, seats: usize) {
         match way {
-            _ if spot.is_loose() => near.everybody(seats),
+            _ if spot.is_loose() => near.all(seats),
             Some(way) => self.ahead(spot, way, near),
             None => {
                 self.around(spot, near);
@@ -219,7 +219,7 @@ impl Cells {
 
     /// Walls near a cube, ascending.
     #[inline]
-    pub(crate) fn walls_near(&self, spot: Spot) -> &[u32] {
+    pub(crate) fn walls_near(&self, spot: CellRef) -> &[u32] {
         let place = spot.place as usize;
         if self.places[place].0[SLOTS] & WALLS == 0 {
             return &[];
@@ -229,7 +229,7 @@ impl Cells {
 
     /// The spheres in the 27 cubes around a cube.
     #[inline]
-    pub(crate) fn around(&self, spot: Spot, near: &mut Near) {
+    pub(crate) fn around(&self, spot: CellRef, near: &mut Candidates) {
         if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
             return self.around_border(spot.cube, near);
         }
@@ -241,7 +241,7 @@ impl Cells {
 
     /// The spheres in the nine cubes that came within reach when a sphere went `way` into this cube.
     #[inline]
-    pub(crate) fn ahead(&self, spot: Spot, way: Way, near: &mut Near) {
+    pub(crate) fn ahead(&self, spot: CellRef, way: Exit, near: &mut Candidates) {
         if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
             return self.ahead_border(spot.cube, way, near);
         }
@@ -259,7 +259,7 @@ impl Cells {
     /// The same at the border of the table.
     #[cold]
     #[inline(never)]
-    fn around_border(&self, [x, y, z]: Cube, near: &mut Near) {
+    fn around_border(&self, [x, y, z]: CellCoordinates, near: &mut Candidates) {
         let places =
             [-1, 0, 1].map(|dz| [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| self.place([x + dx, y + dy, z + dz]))));
         self.gather(places.as_flattened().as_flattened(), near, 1);
@@ -267,7 +267,7 @@ impl Cells {
 
     #[cold]
     #[inline(never)]
-    fn ahead_border(&self, cube: Cube, way: Way, near: &mut Near) {
+    fn ahead_border(&self, cube: CellCoordinates, way: Exit, near: &mut Candidates) {
         let axis = way.axis as usize;
         let at = |one: i32, two: i32| {
             let mut cube = cube;
@@ -281,8 +281,8 @@ impl Cells {
 
     /// Copies the seats in rows of some places each, by the number of the first.
     #[inline(always)]
-    fn gather(&self, rows: &[u32], near: &mut Near, width: usize) {
-        let (mut count, mut marks) = (0, NOBODY);
+    fn gather(&self, rows: &[u32], near: &mut Candidates, width: usize) {
+        let (mut count, mut marks) = (0, NONE);
         let Some(seats) = near.seats.first_chunk_mut::<ROOM>() else { return };
         for &row in rows {
             for Place(slots) in &self.places[row as usize..row as usize + width] {
@@ -294,16 +294,16 @@ impl Cells {
             }
         }
         near.count = count;
-        if marks & NOBODY != NOBODY {
+        if marks & NONE != NONE {
             self.gather_spilled(rows, near, width);
         }
     }
 
     #[cold]
-    fn gather_spilled(&self, rows: &[u32], near: &mut Near, width: usize) {
+    fn gather_spilled(&self, rows: &[u32], near: &mut Candidates, width: usize) {
         for place in rows.iter().flat_map(|&row| &self.places[row as usize..row as usize + width]) {
             let mut seat = place.spilled();
-            while seat != NOBODY {
+            while seat != NONE {
                 near.push(seat);
                 seat = self.next[seat as usize];
             }
@@ -312,7 +312,7 @@ impl Cells {
 
     /// Asks for the places around a cube: they will be read soon.
     #[inline]
-    pub(crate) fn fetch_around(&self, spot: Spot, lanes: Lanes) {
+    pub(crate) fn fetch_around(&self, spot: CellRef, lanes: Simd) {
         let [_, y, z] = self.strides;
         let first = spot.place.wrapping_sub(1 + y + z);
         for row in [0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first.wrapping_add(y + z))).as_flattened() {
@@ -325,11 +325,11 @@ impl Cells {
 
     /// When a sphere on `path` leaves its cube, s from now, and where to.
     #[inline]
-    pub(crate) fn crossing(&self, cube: Cube, path: &Path) -> (f64, Way) {
+    pub(crate) fn crossing(&self, cube: CellCoordinates, path: &Path) -> (f64, Exit) {
         if path.a == DVec3::ZERO && cube.iter().all(|index| index.abs() < OUTERMOST) {
             return self.straight_crossing(cube, path);
         }
-        let mut first = (f64::INFINITY, Way::default());
+        let mut first = (f64::INFINITY, Exit::default());
         for axis in 0..3 {
             let (x, v, a) = (self.within(cube, path, axis), path.v[axis], 0.5 * path.a[axis]);
             for sign in [1_i8, -1] {
@@ -340,7 +340,7 @@ impl Cells {
                 let s = f64::from(sign);
                 let t = if a == 0.0 { straight_exit(left, s * v) } else { quadratic_fall([left, -s * v, -s * a]) };
                 if let Some(t) = t.filter(|&t| t < first.0) {
-                    first = (t, Way { axis: axis as u8, sign });
+                    first = (t, Exit { axis: axis as u8, sign });
                 }
             }
         }
@@ -349,7 +349,7 @@ impl Cells {
 
     /// The same without acceleration and branches: which way a sphere goes cannot be predicted.
     #[inline(always)]
-    fn straight_crossing(&self, cube: Cube, path: &Path) -> (f64, Way) {
+    fn straight_crossing(&self, cube: CellCoordinates, path: &Path) -> (f64, Exit) {
         let exit = |axis: usize| {
             let (x, v) = (self.within(cube, path, axis), path.v[axis]);
             let left = if v > 0.0 { self.edge - x } else { x };
@@ -362,18 +362,18 @@ impl Cells {
         let first = if z < xy { z } else { xy };
         let axis = if z < xy { 2 } else { u8::from(y < x) };
         let toward = [path.v.x > 0.0, path.v.y > 0.0, path.v.z > 0.0][axis as usize];
-        (first, Way { axis, sign: 2 * i8::from(toward) - 1 })
+        (first, Exit { axis, sign: 2 * i8::from(toward) - 1 })
     }
 
     /// Where in its cube a sphere is along an axis, m.
     #[inline(always)]
-    fn within(&self, cube: Cube, path: &Path, axis: usize) -> f64 {
+    fn within(&self, cube: CellCoordinates, path: &Path, axis: usize) -> f64 {
         path.x[axis] - (self.origin[axis] + f64::from(cube[axis]) * self.edge)
     }
 
     /// The sphere at a seat goes `way` from its cube: by the index, since a recomputed position may disagree with the
     /// event. Returns where it is then.
-    pub(crate) fn cross(&mut self, seat: usize, spot: Spot, way: Way, seats: usize) -> Spot {
+    pub(crate) fn cross(&mut self, seat: usize, spot: CellRef, way: Exit, seats: usize) -> CellRef {
         let next = self.beyond(spot, way);
         self.unlink(seat as u32, spot.place);
         self.link(seat, next.place, seats);
@@ -382,12 +382,12 @@ impl Cells {
 
     /// The cube that a sphere comes to when it goes `way`.
     #[inline]
-    pub(crate) fn beyond(&self, spot: Spot, way: Way) -> Spot {
+    pub(crate) fn beyond(&self, spot: CellRef, way: Exit) -> CellRef {
         let (axis, mut cube) = (way.axis as usize % 3, spot.cube);
         cube[axis] += i32::from(way.sign);
         let border = self.places[spot.place as usize].0[SLOTS] & BORDER != 0;
         let beside = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
-        Spot { cube, place: if border { self.place(cube) } else { beside } }
+        CellRef { cube, place: if border { self.place(cube) } else { beside } }
     }
 
     /// Enters a seat, one of so many.
@@ -400,7 +400,7 @@ impl Cells {
             return;
         }
         if self.next.is_empty() {
-            self.next = vec![NOBODY; seats];
+            self.next = vec![NONE; seats];
         }
         self.next[seat] = place.spilled();
         place.spill(seat as u32);
@@ -417,7 +417,7 @@ impl Cells {
             return;
         }
         let (count, spilled) = (place.count(), place.spilled());
-        if spilled == NOBODY {
+        if spilled == NONE {
             place.0[slot] = place.0[count - 1];
             place.0[SLOTS] -= 1 << COUNT;
         } else {
@@ -444,19 +444,19 @@ impl Cells {
     }
 
     /// The number of a cube's place. The cubes that the spheres begin in and those around them are off the border.
-    fn place(&self, cube: Cube) -> u32 {
+    fn place(&self, cube: CellCoordinates) -> u32 {
         let share = |axis: usize| (cube[axis] + 2).rem_euclid(self.size[axis]) as u32 * self.strides[axis];
         share(0) + share(1) + share(2)
     }
 
     /// Where a point (m) is.
-    pub(crate) fn spot(&self, x: DVec3) -> Spot {
+    pub(crate) fn spot(&self, x: DVec3) -> CellRef {
         let cube = self.cube_of(x);
-        Spot { cube, place: self.place(cube) }
+        CellRef { cube, place: self.place(cube) }
     }
 
     /// The cube that holds a point (m).
-    fn cube_of(&self, x: DVec3) -> Cube {
+    fn cube_of(&self, x: DVec3) -> CellCoordinates {
         let index = |axis: usize| ((x[axis] - self.origin[axis]) / self.edge).floor();
         // a float beyond i32 becomes its end, and the clamp brings it in
         [0, 1, 2].map(|axis| (index(axis) as i32).clamp(-OUTERMOST, OUTERMOST))
@@ -469,6 +469,6 @@ fn straight_exit(left: f64, v: f64) -> Option<f64> {
 }
 
 /// Orders cubes so that neighbours are near: 4 × 4 × 4 of them, then the next.
-pub(crate) fn nearness([x, y, z]: Cube) -> [i32; 6] {
+pub(crate) fn nearness([x, y, z]: CellCoordinates) -> [i32; 6] {
     [z >> 2, y >> 2, x >> 2, z & 3, y & 3, x & 3]
 }

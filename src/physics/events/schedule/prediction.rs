@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::candidates::Near;
-use super::cells::Way;
-use super::simd::{Eye, Four, MOST};
+use super::candidates::Candidates;
+use super::cells::Exit;
+use super::simd::{MOST, PairBatch, Query};
 use crate::physics::contact::{Key, Kind};
 use crate::physics::contact_time::straight_pair;
 use crate::physics::events::detector::{Detector, Due, Span};
@@ -29,7 +29,7 @@ pub(crate) struct Plan {
     /// Whether they touch then; else it is time to look again.
     pub(crate) sure: bool,
     /// Into which cube.
-    pub(crate) way: Way,
+    pub(crate) way: Exit,
 }
 
 impl Plan {
@@ -41,16 +41,16 @@ impl Plan {
         stamp: 0,
         kind: Kind::Wall,
         sure: true,
-        way: Way { axis: 0, sign: 1 },
+        way: Exit { axis: 0, sign: 1 },
     };
 }
 
 /// The order of events at one instant: walls, pairs, ends of parabolas, crossings; then a, then b.
-pub(crate) type Rank = (u8, usize, usize);
+pub(crate) type EventOrder = (u8, usize, usize);
 
 /// What comes next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Sort {
+pub(crate) enum EventKind {
     Contact,
     /// An island's parabolas end.
     End,
@@ -65,18 +65,18 @@ impl<D: Detector> EventDriven<D> {
 
     /// The same for the sphere at a seat.
     pub(crate) fn predict_at(&mut self, model: &Model, seat: usize) {
-        self.foresee(model, seat);
+        self.make_plan(model, seat);
         self.schedule(seat);
     }
 
     /// The same where the event that is handled was entered for this seat, and everything else is predicted already.
-    pub(crate) fn predict_first(&mut self, model: &Model, seat: usize) {
-        self.foresee(model, seat);
-        self.schedule_first(seat);
+    pub(crate) fn predict_due(&mut self, model: &Model, seat: usize) {
+        self.make_plan(model, seat);
+        self.enter_due(seat);
     }
 
     /// Makes the plan of the sphere at a seat.
-    fn foresee(&mut self, model: &Model, seat: usize) {
+    fn make_plan(&mut self, model: &Model, seat: usize) {
         let path = self.flight.path_from(seat, self.now);
         self.until = self.rests.end_of(self.flight.sphere(seat)).next_up();
         let mut plan = Plan::IDLE;
@@ -106,12 +106,12 @@ impl<D: Detector> EventDriven<D> {
         self.evaluations += count;
         self.wear.cross(count);
         self.flight.records[seat].plan = plan;
-        self.schedule_first(seat);
+        self.enter_due(seat);
     }
 
     /// Looks at the spheres around a sphere's cube and at the walls near it, or only at those that came within reach
     /// when it went `way`; and when it will leave its cube. Returns how many it looked at.
-    fn meet_near(&mut self, model: &Model, seat: usize, path: &Path, way: Option<Way>, plan: &mut Plan) -> u64 {
+    fn meet_near(&mut self, model: &Model, seat: usize, path: &Path, way: Option<Exit>, plan: &mut Plan) -> u64 {
         let Some(cells) = &self.cells else { return 0 };
         let spot = self.flight.records[seat].spot;
         let Some(mut near) = self.near.take() else { return 0 };
@@ -145,7 +145,7 @@ impl<D: Detector> EventDriven<D> {
     /// The same where the event that is handled was entered for this seat, and everything else is entered already: then
     /// it is known what comes next.
     #[inline]
-    fn schedule_first(&mut self, seat: usize) {
+    fn enter_due(&mut self, seat: usize) {
         let due = self.due(seat);
         self.next = self.queue.replace_first(seat, due);
         self.tie(seat, due);
@@ -160,31 +160,31 @@ impl<D: Detector> EventDriven<D> {
 
     /// What the entry of a seat at `time` stands for.
     #[inline]
-    pub(crate) fn sort(&self, time: f64, seat: usize) -> Sort {
+    pub(crate) fn sort(&self, time: f64, seat: usize) -> EventKind {
         if time == f64::INFINITY {
             // nothing ever happens, perhaps because there is nobody
-            return Sort::Crossing;
+            return EventKind::Crossing;
         }
         let record = &self.flight.records[seat];
         if record.plan.contact == time {
-            Sort::Contact
+            EventKind::Contact
         } else if !self.rests.is_empty() && self.rests.end_led_by(record.sphere as usize) == time {
-            Sort::End
+            EventKind::End
         } else {
-            Sort::Crossing
+            EventKind::Crossing
         }
     }
 
     /// Its place in the order of events.
-    pub(crate) fn rank(&self, time: f64, seat: usize) -> Rank {
+    pub(crate) fn rank(&self, time: f64, seat: usize) -> EventOrder {
         let (record, i) = (&self.flight.records[seat], self.flight.sphere(seat));
         match self.sort(time, seat) {
-            Sort::Contact => {
+            EventKind::Contact => {
                 let (kind, a, b) = self.key(seat, &record.plan);
                 (if kind == Kind::Wall { 0 } else { 1 }, a, b)
             }
-            Sort::End => (2, i, 0),
-            Sort::Crossing => (3, i, 0),
+            EventKind::End => (2, i, 0),
+            EventKind::Crossing => (3, i, 0),
         }
     }
 
@@ -248,7 +248,7 @@ impl<D: Detector> EventDriven<D> {
 
     /// Looks at the pairs of a sphere and those near it, itself among them; returns how many.
     #[inline]
-    fn pairs(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) -> u64 {
+    fn pairs(&self, seat: usize, path: &Path, near: &mut Candidates, plan: &mut Plan) -> u64 {
         if D::SOLVES && self.flight.common().is_some() {
             self.alike(seat, path, near, plan);
         } else {
@@ -261,9 +261,9 @@ impl<D: Detector> EventDriven<D> {
 
     /// Looks at pairs whose relative motion is straight.
     #[inline(always)]
-    fn alike(&self, seat: usize, path: &Path, near: &mut Near, plan: &mut Plan) {
+    fn alike(&self, seat: usize, path: &Path, near: &mut Candidates, plan: &mut Plan) {
         let records = &self.flight.records[..];
-        let eye = Eye { path, r: records[seat].line.r, now: self.now };
+        let eye = Query { path, r: records[seat].line.r, now: self.now };
         let (seats, fours) = near.padded(seat);
         let mut rest = seats;
         while !rest.is_empty() {
@@ -282,7 +282,7 @@ impl<D: Detector> EventDriven<D> {
     /// same time.
     #[cold]
     #[inline(never)]
-    fn choose(&self, seat: usize, path: &Path, seats: &[u32], fours: &[Four], mut meet: u64, plan: &mut Plan) {
+    fn choose(&self, seat: usize, path: &Path, seats: &[u32], fours: &[PairBatch], mut meet: u64, plan: &mut Plan) {
         while meet != 0 {
             let k = meet.trailing_zeros() as usize;
             meet &= meet - 1;

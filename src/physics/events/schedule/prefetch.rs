@@ -5,8 +5,8 @@
 //! kept, and each is visited three times before it is due. The list is a guess, since events change what follows: it
 //! decides when memory is read, and nothing else.
 
-use super::candidates::Near;
-use super::cells::{Cells, Spot, Way};
+use super::candidates::Candidates;
+use super::cells::{CellRef, Cells, Exit};
 use crate::physics::contact::Kind;
 use crate::physics::events::detector::Detector;
 use crate::physics::events::engine::EventDriven;
@@ -25,14 +25,14 @@ const LISTED: usize = 64;
 
 /// What is known about what comes next.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Scout {
+pub(crate) struct Prefetch {
     /// Time, s, and seat.
     list: Vec<(f64, u32)>,
     /// Events handled since it was made.
     at: usize,
     /// How far it should reach, s.
     span: f64,
-    near: Option<Box<Near>>,
+    near: Option<Box<Candidates>>,
     /// Lent to whoever looks into the queue.
     blocks: [Vec<u32>; 2],
 }
@@ -43,7 +43,7 @@ fn crosses(record: &Record) -> bool {
 }
 
 /// Where a sphere will look around.
-fn next_spot(cells: &Cells, record: &Record) -> Spot {
+fn next_spot(cells: &Cells, record: &Record) -> CellRef {
     if crosses(record) && !record.spot.is_loose() { cells.beyond(record.spot, record.plan.way) } else { record.spot }
 }
 
@@ -66,11 +66,11 @@ impl<D: Detector> EventDriven<D> {
         if self.scout.at + PLACES >= self.scout.list.len().max(2 * PLACES) {
             self.list_events();
         }
-        let EventDriven { cells: Some(cells), flight, scout: Scout { list, at, near, .. }, lanes, .. } = self else {
+        let EventDriven { cells: Some(cells), flight, scout: Prefetch { list, at, near, .. }, lanes, .. } = self else {
             return;
         };
         let records = &flight.records[..];
-        let near = near.get_or_insert_with(|| Box::new(Near::nobody()));
+        let near = near.get_or_insert_with(|| Box::new(Candidates::empty()));
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
         if let Some(record) = due(PLACES) {
             cells.fetch_around(next_spot(cells, record), *lanes);
@@ -80,7 +80,7 @@ impl<D: Detector> EventDriven<D> {
                 self.queue.fetch(other);
             }
         }
-        let mut lines = |spot: Spot, way| {
+        let mut lines = |spot: CellRef, way| {
             if spot.is_loose() {
                 return;
             }
@@ -104,14 +104,14 @@ impl<D: Detector> EventDriven<D> {
             for axis in 0..3 {
                 let step = spot.cube[axis] - record.spot.cube[axis];
                 if step != 0 {
-                    lines(spot, Some(Way { axis: axis as u8, sign: step.signum() as i8 }));
+                    lines(spot, Some(Exit { axis: axis as u8, sign: step.signum() as i8 }));
                 }
             }
         }
     }
 
     fn list_events(&mut self) {
-        let EventDriven { scout: Scout { list, at, span, blocks, .. }, .. } = self;
+        let EventDriven { scout: Prefetch { list, at, span, blocks, .. }, .. } = self;
         list.clear();
         *at = 0;
         self.queue.until(self.now + *span, 4 * LISTED, list, blocks);

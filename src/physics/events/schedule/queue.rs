@@ -5,7 +5,7 @@
 //! time, so that the first of all is found without going down again. Bounded memory, no rebuilding, no dependence on how
 //! event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
 
-use super::simd::{Eight, Judge, Lanes, Tournament};
+use super::simd::{Eight, Judge, Simd, Tournament};
 
 /// Entries that share a winner: one cache line of times.
 const FAN: usize = 8;
@@ -26,7 +26,7 @@ pub(crate) struct Queue {
     /// Where each level begins.
     starts: [usize; MOST_LEVELS],
     levels: usize,
-    lanes: Lanes,
+    lanes: Simd,
 }
 
 impl Queue {
@@ -43,7 +43,7 @@ impl Queue {
                 let blocks = vec![Eight([f64::INFINITY; FAN]); total];
                 let leaves = if levels > 1 { starts[1] } else { total };
                 let winners = vec![[TIED; FAN]; total - leaves];
-                return Queue { blocks, winners, starts, levels, lanes: Lanes::new() };
+                return Queue { blocks, winners, starts, levels, lanes: Simd::new() };
             }
         }
     }

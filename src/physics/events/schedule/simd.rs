@@ -20,18 +20,18 @@ pub(crate) struct Eight(pub(super) [f64; 8]);
 /// What is found out about four pairs, each at offset x with relative velocity v: b = x·v or 0 where they part,
 /// c = x² − reach², and the discriminant b² − v² c. They meet if b is negative and the discriminant positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Four {
+pub(crate) struct PairBatch {
     pub(crate) b: [f64; 4],
     pub(crate) c: [f64; 4],
     pub(crate) discriminant: [f64; 4],
 }
 
 /// Room for what is found out in one call, and for a pair that never meets.
-pub(crate) const FOURS: usize = MOST / 4 + 1;
+pub(crate) const BATCHES: usize = MOST / 4 + 1;
 
-impl Four {
+impl PairBatch {
     /// Never.
-    pub(crate) const NEVER: Four = Four { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
+    pub(crate) const NEVER: PairBatch = PairBatch { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
 }
 
 /// The earliest of some pairs.
@@ -49,7 +49,7 @@ pub(crate) struct Earliest {
 
 /// Who looks: a sphere's path and radius at the present, s, with the acceleration that all share.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Eye<'a> {
+pub(crate) struct Query<'a> {
     pub(crate) path: &'a Path,
     pub(crate) r: f64,
     pub(crate) now: f64,
@@ -57,15 +57,15 @@ pub(crate) struct Eye<'a> {
 
 /// What the processor can.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Lanes {
+pub(crate) struct Simd {
     #[cfg(target_arch = "x86_64")]
     wide: Option<V3>,
 }
 
-impl Lanes {
+impl Simd {
     /// As this processor is.
-    pub(crate) fn new() -> Lanes {
-        Lanes {
+    pub(crate) fn new() -> Simd {
+        Simd {
             #[cfg(target_arch = "x86_64")]
             wide: V3::try_new(),
         }
@@ -73,8 +73,8 @@ impl Lanes {
 
     /// As a processor that cannot.
     #[cfg(test)]
-    fn plain() -> Lanes {
-        Lanes {
+    fn plain() -> Simd {
+        Simd {
             #[cfg(target_arch = "x86_64")]
             wide: None,
         }
@@ -82,7 +82,13 @@ impl Lanes {
 
     /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most.
     #[inline]
-    pub(crate) fn look(self, eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> Earliest {
+    pub(crate) fn look(
+        self,
+        eye: Query,
+        records: &[Record],
+        seats: &[u32],
+        fours: &mut [PairBatch; BATCHES],
+    ) -> Earliest {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             return match eye.path.a == DVec3::ZERO {
@@ -151,7 +157,7 @@ impl Judge for Plain {
     }
 }
 
-fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) -> u64 {
+fn look(eye: Query, records: &[Record], seats: &[u32], fours: &mut [PairBatch; BATCHES]) -> u64 {
     let mut meet = 0;
     for (k, &seat) in seats.iter().enumerate() {
         let line = &records[seat as usize].line;
@@ -169,7 +175,7 @@ fn look(eye: Eye, records: &[Record], seats: &[u32], fours: &mut [Four; FOURS]) 
 }
 
 /// When four pairs that meet do, s.
-fn times(now: f64, four: &Four) -> [f64; 4] {
+fn times(now: f64, four: &PairBatch) -> [f64; 4] {
     [0, 1, 2, 3].map(|k| now + four.c[k] / (four.discriminant[k].sqrt() - four.b[k]))
 }
 
@@ -179,8 +185,8 @@ fn earliest(
     meet: u64,
     records: &[Record],
     seats: &[u32],
-    fours: &[Four; FOURS],
-    times: impl Fn(&Four) -> [f64; 4],
+    fours: &[PairBatch; BATCHES],
+    times: impl Fn(&PairBatch) -> [f64; 4],
 ) -> Earliest {
     let mut first = Earliest { time: f64::INFINITY, with: seats[0], meet, doubtful: false };
     let mut left = meet;
@@ -191,7 +197,7 @@ fn earliest(
             left &= left.wrapping_sub(1);
             hit
         });
-        let four = Four {
+        let four = PairBatch {
             b: hits.map(|k| fours[k / 4].b[k % 4]),
             c: hits.map(|k| fours[k / 4].c[k % 4]),
             discriminant: hits.map(|k| fours[k / 4].discriminant[k % 4]),
@@ -227,16 +233,16 @@ mod wide {
     use glam::DVec3;
     use pulp::x86::V3;
 
-    use super::{Earliest, Eight, Eye, FOURS, Four, Judge, Tournament, earliest};
-    use crate::physics::events::trajectories::{Line, Record};
+    use super::{BATCHES, Earliest, Eight, Judge, PairBatch, Query, Tournament, earliest};
+    use crate::physics::events::trajectories::{Record, Trajectory};
 
     /// Looks at pairs of spheres that an acceleration bends or not.
     pub(crate) struct Look<'a, const BENT: bool> {
         pub(crate) wide: V3,
-        pub(crate) eye: Eye<'a>,
+        pub(crate) eye: Query<'a>,
         pub(crate) records: &'a [Record],
         pub(crate) seats: &'a [u32],
-        pub(crate) fours: &'a mut [Four; FOURS],
+        pub(crate) fours: &'a mut [PairBatch; BATCHES],
     }
 
     pub(crate) struct Run<J> {
@@ -319,7 +325,7 @@ mod wide {
                 let b = avx._mm256_min_pd(dot(x, v), zero);
                 let c = avx._mm256_sub_pd(dot(x, x), avx._mm256_mul_pd(reach, reach));
                 let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(dot(v, v), c));
-                *four = Four { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
+                *four = PairBatch { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
                 let (real, near) =
                     (avx._mm256_cmp_pd::<GREATER>(discriminant, zero), avx._mm256_cmp_pd::<GREATER>(zero, b));
                 let bits = avx._mm256_movemask_pd(avx._mm256_and_pd(real, near));
@@ -340,7 +346,12 @@ mod wide {
 
     /// Offset and relative velocity of a line from the eye's rows, at the present.
     #[inline(always)]
-    fn apart<const BENT: bool>(wide: V3, [x, v, a]: [__m256d; 3], line: &Line, now: __m256d) -> (__m256d, __m256d) {
+    fn apart<const BENT: bool>(
+        wide: V3,
+        [x, v, a]: [__m256d; 3],
+        line: &Trajectory,
+        now: __m256d,
+    ) -> (__m256d, __m256d) {
         let avx = wide.avx;
         let (lx, lv) = (row(wide, line.x, line.t), row(wide, line.v, line.r));
         let dt = avx._mm256_sub_pd(now, avx._mm256_set1_pd(line.t));
@@ -372,7 +383,7 @@ mod wide {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::events::trajectories::Flight;
+    use crate::physics::events::trajectories::Trajectories;
     use crate::physics::model::Model;
     use glam::dvec3;
 
@@ -392,7 +403,7 @@ mod tests {
         let scene =
             crate::scene::parse("Scene(name: \"one\", spheres: [Sphere(x: (0, 0, 0), mass: 1, radius: 1)])", "one");
         let model = Model::new(&scene.expect("a valid scene"));
-        let mut records = Flight::new(&model, &model.initial).records;
+        let mut records = Trajectories::new(&model, &model.initial).records;
         records.resize(MOST, records[0]);
         for round in 0..2000 {
             let mut point = || dvec3(number(), number(), number());
@@ -402,11 +413,11 @@ mod tests {
             }
             let a = if round % 2 == 0 { DVec3::ZERO } else { point() };
             let path = Path { x: point(), v: point(), a };
-            let eye = Eye { path: &path, r: 0.5, now: 1.5 };
+            let eye = Query { path: &path, r: 0.5, now: 1.5 };
             let seats: Vec<u32> = (0..MOST as u32).rev().collect();
-            let (mut wide, mut plain) = ([Four::NEVER; FOURS], [Four::NEVER; FOURS]);
-            let found = Lanes::new().look(eye, &records, &seats, &mut wide);
-            assert_eq!(found, Lanes::plain().look(eye, &records, &seats, &mut plain));
+            let (mut wide, mut plain) = ([PairBatch::NEVER; BATCHES], [PairBatch::NEVER; BATCHES]);
+            let found = Simd::new().look(eye, &records, &seats, &mut wide);
+            assert_eq!(found, Simd::plain().look(eye, &records, &seats, &mut plain));
             assert_eq!(wide, plain);
         }
     }
@@ -429,7 +440,7 @@ mod tests {
             then[round % 8] = time;
             let least = then.into_iter().fold(f64::INFINITY, f64::min);
             let expected = [(least, (0..8).map(|k| u32::from(then[k] == least) << k).sum()); 2];
-            assert_eq!(Lanes::new().run(Judged(times, round % 8, time)), expected);
+            assert_eq!(Simd::new().run(Judged(times, round % 8, time)), expected);
             assert_eq!(Judged(times, round % 8, time).run(Plain), expected);
         }
     }

@@ -4,7 +4,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::prediction::Rank;
+use super::prediction::EventOrder;
 use crate::physics::events::detector::Detector;
 use crate::physics::events::engine::EventDriven;
 
@@ -13,7 +13,7 @@ use crate::physics::events::engine::EventDriven;
 pub(crate) struct Ties {
     /// s; no number while there are none.
     time: f64,
-    heap: BinaryHeap<Reverse<(Rank, u32)>>,
+    heap: BinaryHeap<Reverse<(EventOrder, u32)>>,
 }
 
 impl Ties {

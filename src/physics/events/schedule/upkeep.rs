@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use super::cells::layout::{bounds, widest_in_table};
-use super::cells::{Cells, Layout, Spot};
+use super::cells::{CellRef, Cells, Layout};
 use crate::physics::events::detector::Detector;
 use crate::physics::events::engine::EventDriven;
 use crate::physics::events::trajectories::Record;
@@ -104,7 +104,7 @@ impl<D: Detector> EventDriven<D> {
         for seat in 0..self.flight.records.len() {
             let record = &self.flight.records[seat];
             let out = record.line.r > cells.widest() || self.roams(model, record, cells.edge(), 1.0);
-            let spot = if out { Spot::LOOSE } else { cells.spot(self.flight.path_from(seat, self.now).x) };
+            let spot = if out { CellRef::LOOSE } else { cells.spot(self.flight.path_from(seat, self.now).x) };
             self.flight.records[seat].spot = spot;
         }
         self.cells = Some(Box::new(cells));
@@ -159,7 +159,7 @@ impl<D: Detector> EventDriven<D> {
             // no sphere goes to and fro
             let out = self.roams(model, record, cells.edge(), if is_out { 4.0 } else { 1.0 });
             if out != is_out {
-                let spot = if out { Spot::LOOSE } else { cells.spot(self.flight.path_from(seat, self.now).x) };
+                let spot = if out { CellRef::LOOSE } else { cells.spot(self.flight.path_from(seat, self.now).x) };
                 self.put(seat, spot);
                 self.predict_at(model, seat);
             }
@@ -185,7 +185,7 @@ impl<D: Detector> EventDriven<D> {
         }
     }
 
-    fn put(&mut self, seat: usize, spot: Spot) {
+    fn put(&mut self, seat: usize, spot: CellRef) {
         let seats = self.flight.records.len();
         let (record, Some(cells)) = (&mut self.flight.records[seat], &mut self.cells) else { return };
         cells.leave(seat, record.spot.place);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Cells, Cube, OUTERMOST, SLOTS, WALLS};
+use super::{CellCoordinates, Cells, OUTERMOST, SLOTS, WALLS};
 use crate::physics::model::Model;
 use crate::physics::wall::Face;
 
@@ -12,8 +12,8 @@ const MARGIN: f64 = 1.0 + 1e-6;
 /// The cubes from one corner to the other, and where among them a wall's plane is.
 struct Slab<'a> {
     face: &'a Face,
-    low: Cube,
-    high: Cube,
+    low: CellCoordinates,
+    high: CellCoordinates,
     /// The axis along which the plane is crossed most steeply.
     steep: usize,
     /// How far from the plane (m) the middle of a cube near it may be.
@@ -84,7 +84,7 @@ impl Cells {
     }
 
     /// The first and the last cube of a column that are near a wall's plane, within the wall's box.
-    fn column(&self, slab: &Slab, mut cube: Cube) -> (i32, i32) {
+    fn column(&self, slab: &Slab, mut cube: CellCoordinates) -> (i32, i32) {
         let Slab { face, low, high, steep, half } = *slab;
         cube[steep] = low[steep];
         let middle = DVec3::from_array(cube.map(|k| f64::from(k) + 0.5));
