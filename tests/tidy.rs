@@ -8,8 +8,6 @@ mod circles;
 mod plan;
 #[path = "tidy/readme.rs"]
 mod readme;
-#[path = "tidy/remains.rs"]
-mod remains;
 #[path = "tidy/source.rs"]
 mod source;
 
@@ -19,7 +17,7 @@ use plan::{
     ARGUMENTS, BLIND, FILE, FUNCTION, HOMES, INEXACT, LONG_FILES, METHODS, OF_THE_SCENE, OUTER_WORLD, PLAN, TOLD,
     UNFINISHED,
 };
-use source::{Contents, File, Name, Root};
+use source::{Contents, File, Name, Named, Root};
 
 type Rule = fn(&File) -> Vec<String>;
 
@@ -101,10 +99,11 @@ fn names_what_it_takes(file: &File) -> Vec<String> {
     })
 }
 
-/// The functions of a file with too many arguments.
 fn with_many_arguments(file: &File) -> Vec<String> {
     let functions = file.contents().functions.into_iter();
-    functions.filter(|function| function.arguments > ARGUMENTS).map(|function| function.name).collect()
+    let many = functions.filter(|function| function.arguments > ARGUMENTS);
+    let of = |function: &Named| format!("`{}` has {} arguments", function.name, function.arguments);
+    many.map(|function| complain(file, function.line, &of(&function))).collect()
 }
 
 fn only_the_model_names_the_scene(file: &File) -> Vec<String> {
@@ -248,31 +247,17 @@ fn every_home_of_an_outside_crate_names_it() {
 #[test]
 fn no_files_import_each_other_in_a_circle() {
     let circles = circles::circles(&circles::arrows(&source::files("src")));
-    let found: BTreeSet<&str> = circles.iter().flatten().map(String::as_str).collect();
-    let known: BTreeSet<&str> = remains::IN_CIRCLES.iter().copied().collect();
-    let new: Vec<_> =
-        circles.iter().filter(|circle| circle.iter().any(|file| !known.contains(file.as_str()))).collect();
-    assert!(new.is_empty(), "each of these files leads to all others of its group: {new:#?}");
-    let cured: Vec<_> = known.difference(&found).collect();
-    assert!(cured.is_empty(), "no longer in a circle, and listed in tests/tidy/remains.rs: {cured:#?}");
+    assert!(circles.is_empty(), "each of these files leads to all others of its group: {circles:#?}");
 }
 
 #[test]
 fn files_say_which_names_they_take() {
-    let files = source::files("src");
-    let found: BTreeSet<&str> =
-        files.iter().filter(|file| !names_what_it_takes(file).is_empty()).map(|file| file.path.as_str()).collect();
-    assert_eq!(found, remains::ALL_NAMES.iter().copied().collect(), "against tests/tidy/remains.rs");
+    holds(names_what_it_takes, &["src"]);
 }
 
 #[test]
 fn functions_have_few_arguments() {
-    let files: Vec<File> = ["src", "tests"].into_iter().flat_map(source::files).collect();
-    let many =
-        |file: &File| with_many_arguments(file).into_iter().map(|name| (file.path.clone(), name)).collect::<Vec<_>>();
-    let found: BTreeSet<(String, String)> = files.iter().flat_map(many).collect();
-    let known = remains::MANY_ARGUMENTS.iter().map(|(file, name)| (file.to_string(), name.to_string())).collect();
-    assert_eq!(found, known, "against tests/tidy/remains.rs");
+    holds(with_many_arguments, &["src", "tests"]);
 }
 
 #[test]

@@ -72,26 +72,43 @@ pub fn straight_pair(x: DVec3, v: DVec3, reach: f64) -> Option<f64> {
     (discriminant > 0.0).then(|| c / (discriminant.sqrt() - b))
 }
 
-/// Whether an approach turns into a retreat by itself before the gap has shrunk by what rounding leaves of coordinates:
-/// then it is none. Where a sphere is pressed against one body and slides past another, rounding alone would otherwise
-/// drive it into the one and the other in turn, for ever at one instant.
-///
-/// `closing` < 0 is v_n (m/s), `bends` how fast it grows (m/s²), at a radius of curvature `r` (m) and coordinates of
-/// `size` (m); `v` (m/s) and `a` (m/s²) bound how fast `bends` changes: it must still be positive when v_n reaches 0.
-fn grazes(closing: f64, bends: f64, v: f64, a: f64, r: f64, size: f64) -> bool {
-    let jerk = 3.0 * v * (a + v * v / r) / r;
-    // an approach that an impulse has made is none of rounding's, however shallow
-    -closing <= 64.0 * f64::EPSILON * v
-        && bends > 0.0
-        && closing * closing <= 2.0 * bends * GRAZE * size
-        && -2.0 * jerk * closing <= bends * bends
+/// An approach at one moment, as far as its turning into a retreat depends on it.
+struct Approach {
+    /// v_n < 0, m/s.
+    closing: f64,
+    /// How fast v_n grows, m/s².
+    bends: f64,
+    /// Relative speed, m/s, and acceleration, m/s²: they bound how fast `bends` changes.
+    speed: f64,
+    acceleration: f64,
+    /// Radius of curvature, m.
+    radius: f64,
+    /// Size of the coordinates, m.
+    size: f64,
 }
 
-/// The same for a pair; `path` is that of one centre seen from the other, now.
+impl Approach {
+    /// Whether it turns into a retreat by itself before the gap has shrunk by what rounding leaves of coordinates: then it
+    /// is none. Where a sphere is pressed against one body and slides past another, rounding alone would otherwise drive it
+    /// into the one and the other in turn, for ever at one instant. `bends` must still be positive when v_n reaches 0.
+    fn grazes(&self) -> bool {
+        let Approach { closing, bends, speed, acceleration, radius, size } = *self;
+        let jerk = 3.0 * speed * (acceleration + speed * speed / radius) / radius;
+        // an approach that an impulse has made is none of rounding's, however shallow
+        -closing <= 64.0 * f64::EPSILON * speed
+            && bends > 0.0
+            && closing * closing <= 2.0 * bends * GRAZE * size
+            && -2.0 * jerk * closing <= bends * bends
+    }
+}
+
+/// Whether two spheres that approach at v_n = `closing` (m/s) only graze; `path` is that of one centre seen from the other,
+/// now.
 fn pair_grazes(path: &Path, closing: f64) -> bool {
     let (distance, speed) = (path.x.length(), path.v.length());
     let bends = path.x.dot(path.a) / distance + (speed * speed - closing * closing) / distance;
-    grazes(closing, bends, speed, path.a.length(), distance, distance)
+    let acceleration = path.a.length();
+    Approach { closing, bends, speed, acceleration, radius: distance, size: distance }.grazes()
 }
 
 fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
@@ -302,7 +319,7 @@ impl Search<'_> {
         (bends < 0.0).then(|| t - 2.0 * closing / bends)
     }
 
-    /// [`grazes`] for a touch at `t`.
+    /// Whether a touch at `t` (s) that approaches at v_n = `closing` (m/s) only grazes.
     fn grazes(&self, t: f64, at: &Touch, closing: f64) -> bool {
         let (x, v, a) = (self.path.at(t), self.path.velocity(t), self.path.a);
         let size = x.abs().max_element().max(self.r);
@@ -313,7 +330,7 @@ impl Search<'_> {
         // as in `approached`: over an edge a fast sphere leaves what it was pressed against
         let ahead = part_ahead(self.face, x, v, a, self.r);
         let bends = at.normal.dot(a) + curvature(self.face, ahead, at.normal, v, self.r);
-        grazes(closing, bends, v.length(), a.length(), self.r, size)
+        Approach { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size }.grazes()
     }
 
     /// What rounding may leave of a gap that is meant to be 0, m: some hundred ulp of the coordinates and the path.

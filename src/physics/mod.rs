@@ -35,6 +35,7 @@ pub mod wall;
 mod wall_parts;
 
 pub use contact::{Class, Contact, Kind, Probe};
+pub use events::rest_reason::RestReason;
 pub use method::{Description, Effect, Knobs, Progress, Until, knobs};
 pub use model::{ContactLaw, Method, Model, Scene, Settings};
 pub use requirements::{PairSearch, Requirements};

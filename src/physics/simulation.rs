@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::contact::{Contact, Probe};
+use super::contact::{Contact, Key, Probe};
+use super::events::rest_reason::RestReason;
 use super::log::Log;
 use super::method::{Description, Engine, Progress, Until};
 use super::model::{Method, Model, Scene, Settings};
@@ -183,6 +184,15 @@ impl Simulation {
     /// The events kept since the last call, in order of time.
     pub fn take_events(&mut self) -> Vec<Contact> {
         std::mem::take(&mut self.log.events)
+    }
+
+    /// Why a contact rests now; none if it does not, and of methods that do not follow single events.
+    pub fn rest_reason(&self, key: Key) -> Option<RestReason> {
+        match &self.engine {
+            Engines::Swept(engine) => engine.rest_reason(key),
+            Engines::Exact(engine) => engine.rest_reason(key),
+            Engines::Paper(_) | Engines::Moreau(_) => None,
+        }
     }
 
     /// Counted since t = 0.

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::detector::Detector;
-use super::engine::EventDriven;
-use super::impact::{ContactState, HOP};
-use super::rest_criteria::SMALL_HOP;
+use super::contact_state::ContactState;
+use super::islands::resting::Rests;
+use super::rounding::{HOP, SUMMED_HOP};
+use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::{ContactLaw, Model};
 
@@ -19,7 +19,7 @@ const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.
 const SMALL: f64 = 1e-7;
 
 /// So many bounces in a row must not have died out, and so many times 1 / (1 − e): restitution alone would have left e⁻⁵⁰
-/// of their speed. Across less than [`SMALL_HOP`] the first alone is enough.
+/// of their speed. Across less than [`SUMMED_HOP`] the first alone is enough.
 const MANY: u32 = 100;
 pub(super) const DECAY: f64 = 50.0;
 
@@ -34,13 +34,18 @@ const FED: f64 = 8.0;
 const MEMORY: f64 = 1.0 - 1.0 / 64.0;
 
 /// Small bounces of some contacts, each in a row so far.
-pub(super) type Chatter = BTreeMap<Key, Row>;
+#[derive(Debug, Clone)]
+pub(crate) struct Chatter {
+    rows: BTreeMap<Key, Row>,
+    /// What all spheres weigh, their own forces included, N.
+    weight: f64,
+}
 
 /// A row of small bounces of one contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
+struct Row {
     count: u32,
-    /// How many of them, the last ones, were lower than [`SMALL_HOP`].
+    /// How many of them, the last ones, were lower than [`SUMMED_HOP`].
     tiny: u32,
     /// When the last of them was, s.
     last: f64,
@@ -72,41 +77,53 @@ impl Row {
     }
 }
 
-impl<D: Detector> EventDriven<D> {
+impl Chatter {
+    /// No bounces yet.
+    pub(crate) fn new(model: &Model) -> Chatter {
+        let weight = (0..model.len()).map(|i| model.acceleration(i).length() * model.masses[i]).sum();
+        Chatter { rows: BTreeMap::new(), weight }
+    }
+
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
     /// bodies last changed. A chain of impacts at one instant alone is no such row: nothing has fed it.
-    pub(super) fn chatters(&mut self, model: &Model, meeting: &ContactState, since: f64) -> bool {
-        let pull = self.pull(model, meeting.key);
+    pub(super) fn is_endless(
+        &mut self,
+        model: &Model,
+        (trajectories, rests): (&Trajectories, &Rests),
+        contact: &ContactState,
+        since: f64,
+    ) -> bool {
+        let pull = self.pull(model, contact.key);
         if pull == 0.0 || model.law == LOSSLESS {
             return false;
         }
-        let (now, approach_speed) = (self.now, -meeting.v_n);
-        let since = self.chatter.get(&meeting.key).map_or(since, |row| row.last);
-        let keeps = self.speed_kept(model, meeting.key);
-        let rounding = HOP * meeting.size();
-        let small = if keeps < 1.0 { SMALL * meeting.reach } else { rounding };
+        let (now, approach_speed) = (trajectories.now, -contact.v_n);
+        let since = self.rows.get(&contact.key).map_or(since, |row| row.last);
+        let keeps = speed_kept(model, rests, contact.key);
+        let rounding = HOP * contact.size();
+        let small = if keeps < 1.0 { SMALL * contact.reach } else { rounding };
         // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
         let way = 0.25 * approach_speed * (now - since);
         if way > small {
-            self.chatter.remove(&meeting.key);
+            self.rows.remove(&contact.key);
             return false;
         }
-        let row = self.chatter.entry(meeting.key).or_insert(Row::new(now, approach_speed));
+        let row = self.rows.entry(contact.key).or_insert(Row::new(now, approach_speed));
         row.given = MEMORY * row.given + (1.0 + keeps) * approach_speed;
         row.took = MEMORY * row.took + (now - row.last);
         row.count = row.count.saturating_add(1);
-        row.tiny = if way <= (SMALL_HOP * meeting.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
+        row.tiny = if way <= (SUMMED_HOP * contact.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
         row.last = now;
         row.due *= keeps.sqrt();
         row.is_endless(approach_speed, keeps, pull)
     }
 
-    /// Whether [`EventDriven::chatters`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
+    /// Whether [`Chatter::is_endless`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
     #[inline(always)]
-    pub(super) fn may_chatter(&self, meeting: &ContactState, since: f64) -> bool {
-        let fed = self.flight.common() != Some(DVec3::ZERO);
-        let small = (SMALL * meeting.reach).max(HOP * meeting.size());
-        fed && (!self.chatter.is_empty() || -meeting.v_n * (self.now - since) <= 4.0 * small)
+    pub(super) fn may_be_endless(&self, trajectories: &Trajectories, contact: &ContactState, since: f64) -> bool {
+        let fed = trajectories.common() != Some(DVec3::ZERO);
+        let small = (SMALL * contact.reach).max(HOP * contact.size());
+        fed && (!self.rows.is_empty() || -contact.v_n * (trajectories.now - since) <= 4.0 * small)
     }
 
     /// How fast all weight of the scene would change v_n, m/s². What nothing pulls dies out, or collapses at one instant.
@@ -114,21 +131,16 @@ impl<D: Detector> EventDriven<D> {
         let other = if kind == Kind::Pair { model.inverse_masses[b] } else { 0.0 };
         self.weight * (model.inverse_masses[a] + other)
     }
-
-    /// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
-    /// bodies rests on something else too, and what it passes on to that is lost.
-    fn speed_kept(&self, model: &Model, (kind, a, b): Key) -> f64 {
-        let law = &model.law;
-        let (own, other) = match kind {
-            Kind::Pair => (law.restitution, law.wall_restitution),
-            Kind::Wall => (law.wall_restitution, law.restitution),
-        };
-        let rests = self.rests.count(a) > 0 || (kind == Kind::Pair && self.rests.count(b) > 0);
-        if own == 1.0 && rests { other.min(law.tangential) } else { own }
-    }
 }
 
-/// What all spheres weigh, their own forces included, N.
-pub(super) fn weight(model: &Model) -> f64 {
-    (0..model.len()).map(|i| model.acceleration(i).length() * model.masses[i]).sum()
+/// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
+/// bodies rests on something else too, and what it passes on to that is lost.
+fn speed_kept(model: &Model, rests: &Rests, (kind, a, b): Key) -> f64 {
+    let law = &model.law;
+    let (own, other) = match kind {
+        Kind::Pair => (law.restitution, law.wall_restitution),
+        Kind::Wall => (law.wall_restitution, law.restitution),
+    };
+    let rests = rests.count(a) > 0 || (kind == Kind::Pair && rests.count(b) > 0);
+    if own == 1.0 && rests { other.min(law.tangential) } else { own }
 }

@@ -1,31 +1,20 @@
-//! The event-driven method: no time step. Between events every sphere moves on a parabola; the next event is computed,
-//! not searched for by stepping. The yardstick of the other methods.
+//! The event loop: a thin one, between the schedule, which knows what comes next, and the mechanics, which know what becomes
+//! of it.
 //!
-//! The loop: take the earliest event of all (ties: walls, pairs, ends of parabolas, crossings of cells; then a, then b),
-//! advance the clock to it, let the impact law act on the two bodies, predict them anew. When no contact is left at an
-//! instant, islands of resting contacts are settled (`rest`). Reading never rewrites a line (`flight`), and frames only
-//! say where to pause: neither changes a bit of the trajectory.
+//! Take the earliest event of all (ties: walls, pairs, ends of parabolas, crossings of cells; then a, then b), advance the
+//! clock to it, let the mechanics act, predict anew the spheres that they say have changed. When no contact is left at an
+//! instant, islands of resting contacts are solved. Frames only say where to pause, and reading never rewrites anything:
+//! neither changes a bit of the run.
 
-use std::borrow::Cow;
-
-use glam::DVec3;
-
-use super::chattering::{Chatter, weight};
+use super::changed::Changed;
 use super::detector::Detector;
-use super::instant::{Instant, beginning};
-use super::islands::resting::Rests;
-use super::resumable::{self, Origin, Replay};
-use super::schedule::candidates::Candidates;
-use super::schedule::cells::Cells;
-use super::schedule::prediction::EventKind;
-use super::schedule::prefetch::Prefetch;
-use super::schedule::queue::Queue;
-use super::schedule::simd::Simd;
-use super::schedule::ties::Ties;
-use super::schedule::upkeep::Wear;
-use super::trajectories::Trajectories;
+use super::mechanics::Mechanics;
+use super::rest_reason::RestReason;
+use super::schedule::entry::{EventKind, event_kind};
+use super::schedule::parts::Schedule;
+use crate::physics::contact::{Key, Kind};
 use crate::physics::log::Log;
-use crate::physics::method::{Engine, Progress, Until};
+use crate::physics::method::{Progress, Until};
 use crate::physics::model::{Model, Settings};
 use crate::physics::state::{Stall, State};
 
@@ -36,114 +25,80 @@ const FEW: usize = 64;
 /// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
 const MOST_IDLE: f64 = (1_u64 << 30) as f64;
 
-/// The event-driven method at work.
+/// Events at the very start after which the rest is left to the first frame.
+const MOST_AT_LOAD: usize = 1_000_000;
+
+/// A run, event by event.
 #[derive(Debug, Clone)]
 pub(crate) struct EventDriven<D> {
-    pub(super) settings: Settings,
-    pub(super) detector: D,
-    /// Time of the last event, s.
-    pub(super) now: f64,
-    pub(super) frame: Frame,
-    /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
-    pub(super) goal: f64,
-    /// Where the frame under way ends if nothing happens before, s.
-    pub(super) end: f64,
-    pub(super) flight: Trajectories,
-    /// By seat.
-    pub(super) queue: Queue,
-    /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
-    pub(super) next: Option<(f64, usize)>,
-    pub(super) ties: Ties,
-    pub(super) cells: Option<Box<Cells>>,
-    /// When the parabola ends of whoever is predicted now, s: what it would meet later is looked at then.
-    pub(super) until: f64,
-    /// Lent to whoever looks around.
-    pub(super) near: Option<Box<Candidates>>,
-    pub(super) wear: Wear,
-    pub(super) scout: Prefetch,
-    pub(super) lanes: Simd,
-    pub(super) rests: Rests,
-    pub(super) instant: Instant,
-    /// The time scale of the start, s: what the clock is taken for at its zero.
-    pub(super) beginning: f64,
-    pub(super) chatter: Chatter,
-    /// What all spheres weigh, N.
-    pub(super) weight: f64,
-    /// Gaps computed since the log was last told.
-    pub(super) evaluations: u64,
-    pub(super) origin: Origin,
-    /// How the run began that this one has yet to catch up with.
-    pub(super) resumes: Option<State>,
-    pub(super) replay: Option<Box<Replay<D>>>,
+    settings: Settings,
+    frame: Frame,
+    /// When the next event of every sphere is.
+    pub(super) schedule: Schedule<D>,
+    /// What events act on.
+    pub(super) mechanics: Mechanics,
 }
 
 /// What one single-step shows: up to the next event, or dt.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Frame {
+struct Frame {
     /// End of the last complete frame, s.
-    pub(super) time: f64,
+    time: f64,
     /// Its length, s.
-    pub(super) step: f64,
+    step: f64,
     /// Whether the next one is under way.
-    pub(super) open: bool,
+    open: bool,
+    /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
+    goal: f64,
+    /// Where the frame under way ends if nothing happens before, s.
+    end: f64,
+}
+
+impl Frame {
+    /// Between frames at `time`, s.
+    fn at(time: f64) -> Frame {
+        Frame { time, step: 0.0, open: false, goal: f64::NEG_INFINITY, end: f64::MAX }
+    }
+
+    /// A frame is dt long, and so long at least that the clock moves on.
+    fn set_end(&mut self, dt: f64) {
+        self.end = (self.time + dt).max(self.time.next_up()).max(self.goal).min(f64::MAX);
+    }
 }
 
 /// What became of one turn of the loop.
-pub(super) enum Turn {
+enum Turn {
     /// An event was handled.
     Event,
     /// The frame in progress is complete.
     Frame,
 }
 
-impl<D: Detector> Engine for EventDriven<D> {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> EventDriven<D> {
-        let count = model.len();
-        let origin = if state == model.initial { Origin::Model } else { Origin::State(Box::new(state.clone())) };
-        let mut exact = EventDriven {
+impl<D: Detector> EventDriven<D> {
+    /// A run from `state` on, whose contacts are handled already.
+    pub(crate) fn begin(model: &Model, settings: Settings, state: &State, log: &mut Log) -> EventDriven<D> {
+        let mut engine = EventDriven {
             settings,
-            detector: D::new(settings),
-            now: state.t,
-            frame: Frame { time: state.t, step: 0.0, open: false },
-            goal: f64::NEG_INFINITY,
-            end: f64::MAX,
-            flight: Trajectories::new(model, &state),
-            queue: Queue::new(count),
-            next: None,
-            ties: Ties::none(),
-            cells: None,
-            until: f64::INFINITY,
-            near: Some(Box::new(Candidates::empty())),
-            wear: Wear::new(count, state.t),
-            scout: Prefetch::default(),
-            lanes: Simd::new(),
-            rests: Rests::default(),
-            instant: Instant::default(),
-            beginning: beginning(model, &state),
-            chatter: Chatter::default(),
-            weight: weight(model),
-            evaluations: 0,
-            origin,
-            resumes: None,
-            replay: None,
+            frame: Frame::at(state.t),
+            schedule: Schedule::new(D::new(settings), model.len(), state.t),
+            mechanics: Mechanics::new(model, state),
         };
-        if count > FEW {
-            exact.lay_out(model);
+        let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = &mut engine;
+        if model.len() > FEW {
+            schedule.lay_out(model, trajectories, rests);
         }
-        exact.load(model, log);
-        exact.flight.forget();
-        exact
+        engine.load(model, log);
+        engine.mechanics.trajectories.forget_past();
+        engine
     }
 
-    fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
-        if self.resumes.is_some() && !self.catch_up(model, work) {
-            return Progress::Yielded;
-        }
-        self.goal = match until {
+    /// Goes on for about `work` events, or to the goal.
+    pub(crate) fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
+        self.frame.goal = match until {
             Until::Time(t) if t.is_finite() && t - self.frame.time > MOST_IDLE * self.settings.dt => t,
             _ => f64::NEG_INFINITY,
         };
-        self.end = self.frame_end();
+        self.frame.set_end(self.settings.dt);
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -164,115 +119,175 @@ impl<D: Detector> Engine for EventDriven<D> {
         }
     }
 
-    fn retune(&mut self, model: &Model, settings: Settings) {
-        let same = settings.tolerance == self.settings.tolerance;
-        self.settings = settings;
-        if !D::SOLVES && !same {
-            self.detector = D::new(settings);
-            self.origin = Origin::Lost;
-            (0..model.len()).for_each(|i| self.predict(model, i));
+    /// Goes on for about `work` events, telling nobody; whether everything up to `until` (s) has happened, or nothing more
+    /// can.
+    pub(super) fn repeat(&mut self, model: &Model, log: &mut Log, until: f64, work: u64) -> bool {
+        for _ in 0..work {
+            if self.schedule.queue.earliest().0 > until && !self.mechanics.rests.is_dirty() {
+                return true;
+            }
+            if !self.frame.open {
+                self.open_frame(log);
+            }
+            // a stall shows itself again in the next frame
+            if self.turn(model, log).is_err() {
+                return true;
+            }
+            log.events.clear();
         }
+        false
     }
 
-    fn state(&self, model: &Model) -> Cow<'_, State> {
-        Cow::Owned(self.at(model, self.frame.time))
+    /// Counts frames from `time` (s) on, with these settings, as if the run had ended a frame there.
+    pub(super) fn begin_frames_at(&mut self, time: f64, settings: Settings) {
+        self.settings = settings;
+        self.frame = Frame::at(time);
+        self.mechanics.forget_past();
+        self.mechanics.rests.forget_curved_time(time);
+        self.mechanics.rests.begin_frame(time);
+        self.schedule.evaluations = 0;
     }
 
-    fn time(&self) -> f64 {
+    /// Takes other settings from the next frame on; whether they change the run.
+    pub(crate) fn retune(&mut self, model: &Model, settings: Settings) -> bool {
+        self.settings = settings;
+        let changes = self.schedule.detector.retune(settings);
+        if changes {
+            let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+            self.schedule.predict_all(model, trajectories, rests);
+        }
+        changes
+    }
+
+    /// What is being solved with.
+    pub(super) fn settings(&self) -> Settings {
+        self.settings
+    }
+
+    /// Time at the end of the last frame, s.
+    pub(crate) fn time(&self) -> f64 {
         self.frame.time
     }
 
-    fn step(&self) -> f64 {
+    /// Length of the last frame, s.
+    pub(crate) fn step(&self) -> f64 {
         self.frame.step
     }
 
-    fn at(&self, model: &Model, t: f64) -> State {
-        if self.resumes.is_some() {
-            return model.initial.clone();
+    /// The state at `t` (s) within the last frame.
+    pub(crate) fn at(&self, model: &Model, t: f64) -> State {
+        self.mechanics.state_at(model, t.clamp(self.frame.time - self.frame.step, self.frame.time))
+    }
+
+    /// Why a contact rests; none if it does not.
+    pub(crate) fn rest_reason(&self, key: Key) -> Option<RestReason> {
+        self.mechanics.rests.reason(key)
+    }
+
+    /// Handles what touches at the start, in the order of events, and predicts everything.
+    fn load(&mut self, model: &Model, log: &mut Log) {
+        self.mechanics.meet_at_load(model, log, self.schedule.cells.as_deref());
+        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+        self.schedule.predict_all(model, trajectories, rests);
+        for _ in 0..MOST_AT_LOAD {
+            let next = self.schedule.queue.earliest().0;
+            let idle = next > self.mechanics.trajectories.now && !self.mechanics.rests.is_dirty();
+            if idle || self.turn(model, log).is_err() {
+                break;
+            }
         }
-        let t = t.clamp(self.frame.time - self.frame.step, self.frame.time);
-        let mut state = self.flight.then(t);
-        self.rests.arcs_into(model, &mut state);
-        state
+        log.contacts.clear();
     }
 
-    fn transient(&self, model: &Model) -> Vec<DVec3> {
-        match (&self.resumes, &self.origin) {
-            (Some(state), _) => resumable::written(state),
-            (None, Origin::Model) => resumable::written(&model.initial),
-            (None, Origin::State(state)) => resumable::written(state),
-            (None, Origin::Lost) => Vec::new(),
-        }
-    }
-
-    fn continue_with(&mut self, transient: &[DVec3]) {
-        self.resumes =
-            resumable::read(transient, self.flight.records.len()).filter(|origin| origin.t <= self.frame.time);
-    }
-
-    fn hand_over(&self, model: &Model) -> State {
-        self.at(model, self.frame.time)
-    }
-}
-
-impl<D: Detector> EventDriven<D> {
-    pub(super) fn open_frame(&mut self, log: &mut Log) {
+    fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
-        self.end = self.frame_end();
-        self.flight.forget();
-        self.rests.forget();
+        self.frame.set_end(self.settings.dt);
+        self.mechanics.forget_past();
         log.contacts.clear();
         log.probes.clear();
     }
 
-    /// A frame is dt long, and so long at least that the clock moves on.
-    pub(super) fn frame_end(&self) -> f64 {
-        let start = self.frame.time;
-        (start + self.settings.dt).max(start.next_up()).max(self.goal).min(f64::MAX)
-    }
-
-    pub(super) fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
-        self.detector.report(self.frame.time, end, log);
-        self.list_rests(model, log, end);
-        self.frame = Frame { time: end, step: end - self.frame.time, open: false };
+    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
+        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+        let looked_at = std::mem::take(&mut self.schedule.evaluations);
+        self.schedule.detector.report(self.frame.time, end, looked_at, log);
+        rests.list(model, trajectories, log, end);
+        self.frame = Frame { time: end, step: end - self.frame.time, open: false, ..self.frame };
         log.tallies.frames += 1;
-        let looked_at = std::mem::take(&mut self.evaluations);
-        if D::SOLVES {
-            log.tallies.evaluations += looked_at;
-        }
-        log.tallies.inexact_time = self.rests.curved_time(end);
+        log.tallies.inexact_time = rests.curved_time(end);
         Turn::Frame
     }
 
     /// One event, or the end of the frame.
-    pub(super) fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
-        let (time, seat) = match self.next.take() {
-            Some(next) => next,
-            None => self.first(),
-        };
-        let next = self.sort(time, seat);
-        if self.rests.is_dirty() && (time > self.now || next != EventKind::Contact) {
-            self.settle(model, log)?;
+    fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
+        let EventDriven { schedule, mechanics, .. } = self;
+        let Mechanics { trajectories, rests, impacts } = mechanics;
+        let (time, seat) = schedule.take_next(trajectories, rests);
+        let (kind, now) = (event_kind(trajectories, rests, time, seat), trajectories.now);
+        if rests.is_dirty() && (time > now || kind != EventKind::Contact) {
+            let changed = mechanics.settle(model, log)?;
+            self.predict(model, &changed);
             return Ok(Turn::Event);
         }
-        if !log.contacts.is_empty() && time > self.now && self.now > self.frame.time {
-            self.next = Some((time, seat));
-            return Ok(self.close_frame(model, log, self.now));
+        if !log.contacts.is_empty() && time > now && now > self.frame.time {
+            schedule.put_back((time, seat));
+            return Ok(self.close_frame(model, log, now));
         }
-        if time > self.end {
-            self.next = Some((time, seat));
-            return Ok(self.close_frame(model, log, self.end));
+        if time > self.frame.end {
+            schedule.put_back((time, seat));
+            return Ok(self.close_frame(model, log, self.frame.end));
         }
-        self.advance_clock(time, model.len())?;
-        self.scout();
-        match next {
+        impacts.instant.advance_clock(trajectories, time)?;
+        schedule.prefetch(trajectories);
+        match kind {
             EventKind::Contact => self.contact(model, log, seat)?,
-            EventKind::End => self.end_parabola(model, self.flight.sphere(seat)),
-            EventKind::Crossing => self.cross(model, seat),
+            EventKind::IslandEnd => {
+                let changed = mechanics.end_parabola(model, mechanics.trajectories.sphere(seat));
+                self.predict(model, &changed);
+            }
+            EventKind::Crossing => schedule.cross(model, trajectories, rests, seat),
         }
-        if self.wear.is_worn() {
-            self.review(model);
+        let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = self;
+        if schedule.is_worn() {
+            schedule.review(model, trajectories, rests);
         }
         Ok(Turn::Event)
+    }
+
+    /// The contact that the sphere at a seat planned is due.
+    #[inline]
+    fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
+        let EventDriven { schedule, mechanics, .. } = self;
+        let Mechanics { trajectories, rests, .. } = mechanics;
+        let plan = trajectories.records[seat].plan;
+        let stale = plan.kind == Kind::Pair && trajectories.records[plan.other as usize].stamp != plan.stamp;
+        let rested = !rests.is_empty() && rests.holds(trajectories.key(seat, &plan));
+        if !plan.sure || stale || rested {
+            schedule.predict_due(model, trajectories, rests, seat);
+            return Ok(());
+        }
+        if mechanics.collide_plain_pair(model, log, seat, &plan)? {
+            let Mechanics { trajectories, rests, .. } = mechanics;
+            schedule.predict(model, trajectories, rests, plan.other as usize);
+            schedule.predict_due(model, trajectories, rests, seat);
+            return Ok(());
+        }
+        let key = mechanics.trajectories.key(seat, &plan);
+        let changed = mechanics.meet(model, log, key)?;
+        self.predict(model, &changed);
+        // whatever became of the contact, this plan is used up
+        if !changed.spheres().contains(&self.mechanics.trajectories.sphere(seat)) {
+            let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+            self.schedule.predict_due(model, trajectories, rests, seat);
+        }
+        Ok(())
+    }
+
+    /// Predicts the spheres that an event has changed.
+    fn predict(&mut self, model: &Model, changed: &Changed) {
+        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+        for &i in changed.spheres() {
+            self.schedule.predict(model, trajectories, rests, trajectories.seat(i));
+        }
     }
 }

@@ -1,73 +1,15 @@
 //! A contact happens: the impact law acts, or a rest may begin.
 
-use glam::DVec3;
-
-use super::detector::Detector;
-use super::engine::EventDriven;
+use super::changed::Changed;
+use super::contact_state::ContactState;
+use super::mechanics::Mechanics;
+use super::rest_criteria::Verdict;
+use super::rest_reason::RestReason;
 use crate::physics::contact::{Class, Contact, Key, Kind};
-use crate::physics::impact_law::{along, normal_velocity, pair_normal_velocity, pair_push, separation_speed};
+use crate::physics::impact_law::{along, pair_push, separation_speed};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-use crate::physics::state::{Stall, runaway};
-use crate::physics::wall::{Part, curvature, touch};
-use crate::physics::wall_parts::part_ahead;
-
-/// Flights shorter than this many times the clock's rounding, over 1 − e, never decay (Zeno).
-pub(super) const ZENO: f64 = 10.0;
-
-/// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
-pub(super) const HOP: f64 = 4.0 * f64::EPSILON;
-
-/// Normal velocities below this share of the speed may be those of a sphere that slides.
-const SLOW: f64 = 1e-6;
-
-/// Two bodies that touch.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ContactState {
-    pub(super) key: Key,
-    pub(super) point: DVec3,
-    pub(super) normal: DVec3,
-    /// Gap, m, and what it is measured by: r, or r₁ + r₂.
-    pub(super) gap: f64,
-    pub(super) reach: f64,
-    /// Normal velocity, m/s: the predictor's own expression.
-    pub(super) v_n: f64,
-    /// How fast v_n grows as things are, m/s²; negative: pressed together.
-    pub(super) a_n: f64,
-    /// Whether that stays so as the bodies move: the face of a wall.
-    pub(super) flat: bool,
-}
-
-impl ContactState {
-    /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
-    /// speed at which they approach or part.
-    pub(super) fn hops_within_rounding(&self, pull: f64) -> bool {
-        self.v_n * self.v_n <= 2.0 * pull * HOP * self.size()
-    }
-
-    /// What rounding of its coordinates is relative to, m.
-    pub(super) fn size(&self) -> f64 {
-        self.point.abs().max_element().max(self.reach)
-    }
-
-    /// The row of this contact: `impulse` in N s, v_n afterwards in m/s.
-    pub(super) fn row(&self, time: f64, class: Class, impulse: f64, separation_speed: f64) -> Contact {
-        let (kind, a, b) = self.key;
-        Contact {
-            time,
-            kind,
-            a,
-            b,
-            point: self.point,
-            normal: self.normal,
-            approach_speed: -self.v_n,
-            separation_speed,
-            impulse,
-            degree: -self.gap / self.reach,
-            class,
-        }
-    }
-}
+use crate::physics::state::Stall;
 
 /// Most contacts that a frame lists, a hundred megabytes: a chain of impacts at one instant may have more, which are
 /// counted and told as events all the same.
@@ -83,206 +25,83 @@ pub(super) fn note(log: &mut Log, row: Contact) {
     log.event(row);
 }
 
-impl<D: Detector> EventDriven<D> {
-    /// The contact that the sphere at a seat planned is due.
-    pub(super) fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
-        let plan = self.flight.records[seat].plan;
-        let stale = plan.kind == Kind::Pair && self.flight.records[plan.other as usize].stamp != plan.stamp;
-        let rests = !self.rests.is_empty() && self.rests.holds(self.key(seat, &plan));
-        if !plan.sure || stale || rests {
-            self.predict_due(model, seat);
-            return Ok(());
+impl Mechanics {
+    /// Two bodies touch while they approach, or are pressed together: an impact, or a rest that may begin.
+    pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
+        let before = *self.trajectories.line(key.1);
+        let since = if key.0 == Kind::Pair { before.t.max(self.trajectories.line(key.2).t) } else { before.t };
+        let mut contact = self.advanced_contact(model, key);
+        self.trajectories.restore_bounce_speed(model, &before, &mut contact);
+        if self.is_squeezed(model, &contact) {
+            return Ok(Changed::Nothing);
         }
-        if !self.collide_plain_pair(model, log, seat, &plan)? {
-            self.meet(model, log, self.key(seat, &plan))?;
-        }
-        // whatever became of the contact, this plan is used up
-        if self.flight.records[seat].plan == plan {
-            self.predict_at(model, seat);
-        }
-        Ok(())
-    }
-
-    /// The bodies of a contact now, their lines brought to the present.
-    pub(super) fn meeting(&mut self, model: &Model, key: Key) -> ContactState {
-        let (kind, a, b) = key;
-        self.bring(model, a);
-        if kind == Kind::Pair {
-            self.bring(model, b);
-        }
-        self.contact_state(model, key, self.now)
-    }
-
-    /// The same at `time` (s) without touching the lines.
-    pub(super) fn contact_state(&self, model: &Model, key: Key, time: f64) -> ContactState {
-        let (kind, a, b) = key;
-        let path = self.flight.path(a, time);
-        match kind {
-            Kind::Wall => {
-                let (face, r) = (&model.faces[b], self.flight.line(a).r);
-                let at = touch(face, path.x, r);
-                let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
-                // only what may rest asks on which side of a border it will be
-                let slow = v_n.abs() <= SLOW * path.v.length();
-                let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
-                let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
-                let flat = part == Part::Face && at.part == part;
-                ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
+        match self.verdict(model, log, &contact, since) {
+            Verdict::Collide => self.collide(model, log, &contact),
+            Verdict::Rest(_) if self.trajectories.is_rounding_approach(&contact) => {
+                self.reflect_rounding_approach(model, &contact);
+                self.break_rests(model, log, key)
             }
-            Kind::Pair => {
-                let other = self.flight.path(b, time);
-                let relative = path.relative_to(&other);
-                let (r_a, r_b) = (self.flight.line(a).r, self.flight.line(b).r);
-                let (reach, distance) = (r_a + r_b, relative.x.length());
-                let (normal, gap) = (relative.x / distance, distance - reach);
-                let v_n = pair_normal_velocity(relative.x, relative.v);
-                let across = relative.v - normal * v_n;
-                let a_n = normal.dot(relative.a) + across.length_squared() / distance;
-                let point = other.x + normal * (r_b + 0.5 * gap);
-                ContactState { key, point, normal, gap, reach, v_n, a_n, flat: false }
+            Verdict::Rest(reason) => {
+                let until = self.trajectories.now + contact.bounce_series_duration(model);
+                self.rests.add(model, &self.trajectories, &contact, reason, until);
+                Ok(Changed::Nothing)
             }
-        }
-    }
-
-    /// The same for somebody who only looks: without what the impact law asks, which takes far longer to find.
-    pub(super) fn contact_geometry(&self, model: &Model, key: Key, time: f64) -> ContactState {
-        let (kind, a, b) = key;
-        if kind == Kind::Pair {
-            return self.contact_state(model, key, time);
-        }
-        let reach = self.flight.line(a).r;
-        let at = touch(&model.faces[b], self.flight.path(a, time).x, reach);
-        ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
-    }
-
-    /// The impact law acts on a contact.
-    pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let before = *self.flight.line(key.1);
-        let since = if key.0 == Kind::Pair { before.t.max(self.flight.line(key.2).t) } else { before.t };
-        let mut meeting = self.meeting(model, key);
-        self.restore_bounce_speed(model, &before, &mut meeting);
-        if self.is_squeezed(model, &meeting) {
-            return Ok(());
-        }
-        match self.class(model, log, &meeting, since) {
-            Class::Collide => self.collide(model, log, &meeting),
-            Class::Rest if self.is_rounding_approach(&meeting) => {
-                self.reflect_rounding_approach(model, &meeting);
-                self.follow_up(model, log, key)
-            }
-            Class::Rest => {
-                self.rests.add(
-                    model,
-                    &self.flight,
-                    self.now,
-                    &meeting,
-                    self.now + self.bounce_series_duration(model, &meeting),
-                );
-                Ok(())
-            }
-            Class::Leave | Class::Release => {
-                if meeting.a_n >= 0.0 {
-                    self.ensure_separating(model, key, self.min_separation_speed(&meeting));
+            Verdict::Leave => {
+                if contact.a_n >= 0.0 {
+                    self.ensure_separating(model, key, self.trajectories.min_separation_speed(&contact));
                 }
-                Ok(())
+                Ok(Changed::Nothing)
             }
         }
     }
 
     /// An impact: both bodies get their impulse.
-    pub(super) fn collide(&mut self, model: &Model, log: &mut Log, meeting: &ContactState) -> Result<(), Stall> {
-        let (kind, a, b) = meeting.key;
-        let target = separation_speed(meeting.v_n, Class::Collide, kind, &model.law);
-        let change = target - meeting.v_n;
+    fn collide(&mut self, model: &Model, log: &mut Log, contact: &ContactState) -> Result<Changed, Stall> {
+        let (kind, a, b) = contact.key;
+        let trajectories = &mut self.trajectories;
+        let target = separation_speed(contact.v_n, Class::Collide, kind, &model.law);
+        let change = target - contact.v_n;
         let impulse = match kind {
             Kind::Wall => {
-                let v = self.flight.line(a).v;
-                let slip = (v - meeting.normal * meeting.v_n) * (model.law.tangential - 1.0);
-                self.push(a, along(meeting.normal, change) + slip);
+                let v = trajectories.line(a).v;
+                let slip = (v - contact.normal * contact.v_n) * (model.law.tangential - 1.0);
+                trajectories.push(a, along(contact.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
-                let (one, two) = (*self.flight.line(a), *self.flight.line(b));
+                let (one, two) = (*trajectories.line(a), *trajectories.line(b));
                 let (arm, w) = (one.x - two.x, one.v - two.v);
-                let (share_a, share_b) = (self.flight.inverse_mass(a), self.flight.inverse_mass(b));
+                let (share_a, share_b) = (trajectories.inverse_mass(a), trajectories.inverse_mass(b));
                 let share = share_a + share_b;
                 let push = pair_push(arm, w, share, model.law.restitution);
-                self.push(a, push * share_a);
-                self.push(b, push * -share_b);
+                trajectories.push(a, push * share_a);
+                trajectories.push(b, push * -share_b);
                 change / share
             }
         };
-        self.ensure_separating(model, meeting.key, 0.0);
-        let row = meeting.row(self.now, Class::Collide, impulse, target);
+        self.ensure_separating(model, contact.key, 0.0);
+        let row = contact.row(self.trajectories.now, Class::Collide, impulse, target);
         note(log, row);
-        self.count_impact(meeting);
-        self.follow_up(model, log, meeting.key)?;
-        if target == 0.0 && meeting.a_n < 0.0 {
-            // nothing is left to wait for; from an ulp above the face it would take √(2 ulp/g) to fall
-            self.rests.add(model, &self.flight, self.now, &ContactState { v_n: 0.0, ..*meeting }, self.now);
+        self.impacts.instant.count_impact(&self.trajectories, contact);
+        let changed = self.break_rests(model, log, contact.key)?;
+        if target == 0.0 && contact.a_n < 0.0 {
+            // from an ulp above the face it would take √(2 ulp/g) to fall
+            let stopped = ContactState { v_n: 0.0, ..*contact };
+            self.rests.add(model, &self.trajectories, &stopped, RestReason::Stopped, self.trajectories.now);
         }
-        self.sum_up(model, meeting);
-        Ok(())
+        self.sum_up(model, contact);
+        Ok(changed)
     }
 
-    /// The bodies of a contact have got new velocities: rests that this breaks end, and what comes next is predicted.
-    fn follow_up(&mut self, model: &Model, log: &mut Log, (kind, a, b): Key) -> Result<(), Stall> {
-        let touched = if kind == Kind::Pair { &[a, b][..] } else { &[a][..] };
-        for &i in touched {
-            self.finite(i)?;
-            self.flight.stamp(i);
+    /// The bodies of a contact have got new velocities: rests that this breaks end, and what others planned with them is
+    /// stale.
+    fn break_rests(&mut self, model: &Model, log: &mut Log, (kind, a, b): Key) -> Result<Changed, Stall> {
+        let changed = if kind == Kind::Pair { Changed::Pair([a, b]) } else { Changed::Sphere(a) };
+        for &i in changed.spheres() {
+            self.trajectories.check_range(i)?;
+            self.trajectories.stamp(i);
             self.disturb(model, log, i);
         }
-        for &i in touched {
-            self.predict(model, i);
-        }
-        Ok(())
-    }
-
-    /// Changes the velocity of sphere `i`, whose line is at the present, m/s.
-    pub(super) fn push(&mut self, i: usize, change: DVec3) {
-        let line = *self.flight.line(i);
-        self.flight.rewrite(i, self.now, line.x, line.v + change);
-    }
-
-    /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
-    /// again and again. The body that is freer gives way.
-    pub(super) fn ensure_separating(&mut self, model: &Model, key: Key, least: f64) {
-        let (kind, a, b) = key;
-        let yields = kind == Kind::Pair && self.rests.count(b) < self.rests.count(a);
-        let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
-        let mut nudge = f64::EPSILON * self.flight.line(i).v.length().max(f64::MIN_POSITIVE);
-        for _ in 0..64 {
-            let v_n = self.v_n(model, key);
-            if v_n >= least || v_n.is_nan() {
-                return;
-            }
-            let normal = self.contact_state(model, key, self.now).normal;
-            self.push(i, normal * (sign * nudge.max(least - v_n)));
-            nudge *= 2.0;
-        }
-    }
-
-    /// The normal velocity of a contact whose lines are at the present, m/s.
-    fn v_n(&self, model: &Model, key: Key) -> f64 {
-        let (kind, a, b) = key;
-        if kind == Kind::Wall {
-            return self.contact_state(model, key, self.now).v_n;
-        }
-        let (one, two) = (self.flight.line(a), self.flight.line(b));
-        pair_normal_velocity(one.x - two.x, one.v - two.v)
-    }
-
-    /// Says so if what has just happened sends sphere `i` out of the range of numbers.
-    pub(super) fn finite(&self, i: usize) -> Result<(), Stall> {
-        self.finite_at(self.flight.seat(i))
-    }
-
-    /// The same for the sphere at a seat.
-    #[inline]
-    pub(super) fn finite_at(&self, seat: usize) -> Result<(), Stall> {
-        let line = &self.flight.records[seat].line;
-        let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
-        runaway(self.flight.sphere(seat), self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
+        Ok(changed)
     }
 }

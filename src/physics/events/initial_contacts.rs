@@ -1,70 +1,57 @@
 //! Contacts that exist at load: here alone does a gap of rounding's size count as touching.
 
-use super::detector::Detector;
-use super::engine::EventDriven;
+use super::mechanics::Mechanics;
+use super::rest_reason::RestReason;
 use super::schedule::candidates::Candidates;
-use super::trajectories::Record;
+use super::schedule::cells::Cells;
+use super::squeezed::{squeezing, walls_touched};
 use crate::physics::contact::{Key, Kind};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::overlap::touching;
-use crate::physics::state::Stall;
 
-/// Events at the very start after which the rest is left to the first frame.
-const MOST_AT_LOAD: usize = 1_000_000;
-
-impl<D: Detector> EventDriven<D> {
-    /// Handles what touches at the start, in the order of events, and predicts everything.
-    pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
-        let touching = self.touching_now(model);
+impl Mechanics {
+    /// Lets the impact law act on what touches now, in the order of events. Predicts nothing.
+    pub(super) fn meet_at_load(&mut self, model: &Model, log: &mut Log, cells: Option<&Cells>) {
+        let touching = self.touching_now(model, cells);
         let squeezing = self.squeezing_now(model, &touching);
         for key in touching {
-            if squeezing.binary_search(&key).is_ok() {
-                let meeting = self.meeting(model, key);
-                self.rests.add(model, &self.flight, self.now, &meeting, self.now);
-                continue;
-            }
-            // a stall at load shows itself again in the first frame
-            let _ = self.meet_at_load(model, log, key);
+            let contact = self.advanced_contact(model, key);
+            let reason = match squeezing.binary_search(&key) {
+                Ok(_) => RestReason::Squeezed,
+                // what neither opens nor collides may rest, pressed or not: its island knows
+                Err(_) if contact.v_n == 0.0 => RestReason::Touching,
+                Err(_) => {
+                    // a stall at load shows itself again in the first frame
+                    let _ = self.meet(model, log, key);
+                    continue;
+                }
+            };
+            self.rests.add(model, &self.trajectories, &contact, reason, self.trajectories.now);
         }
-        for i in 0..model.len() {
-            self.predict(model, i);
-        }
-        for _ in 0..MOST_AT_LOAD {
-            let next = self.queue.earliest().0;
-            let idle = next > self.now && !self.rests.is_dirty();
-            if idle || self.turn(model, log).is_err() {
-                break;
-            }
-        }
-        log.contacts.clear();
-    }
-
-    /// A contact that neither opens nor collides may rest, pressed or not: its island knows.
-    fn meet_at_load(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<(), Stall> {
-        let meeting = self.meeting(model, key);
-        if meeting.v_n == 0.0 {
-            self.rests.add(model, &self.flight, self.now, &meeting, self.now);
-            return Ok(());
-        }
-        self.meet(model, log, key)
     }
 
     /// Of these contacts those that squeeze a sphere between walls.
     fn squeezing_now(&self, model: &Model, touching: &[Key]) -> Vec<Key> {
         let walls = touching.iter().take_while(|key| key.0 == Kind::Wall).count();
-        touching[..walls].chunk_by(|one, other| one.1 == other.1).flat_map(|keys| self.squeezing(model, keys)).collect()
+        let by_sphere = touching[..walls].chunk_by(|one, other| one.1 == other.1);
+        by_sphere.flat_map(|keys| squeezing(model, &self.trajectories, keys)).collect()
     }
 
     /// Every contact with a gap of at most max(1e-12 r, 8 ulp of the coordinates): walls before pairs, then a, then b.
-    fn touching_now(&self, model: &Model) -> Vec<Key> {
+    fn touching_now(&self, model: &Model, cells: Option<&Cells>) -> Vec<Key> {
         let mut found = Vec::new();
-        let mut near = Candidates::empty();
-        let records = &self.flight.records;
+        let mut candidates = Candidates::empty();
+        let records = &self.trajectories.records;
         for record in records {
-            let Record { line, spot, sphere, .. } = record;
-            let i = *sphere as usize;
-            found.extend(self.walls_touched(model, record).into_iter().map(|wall| (Kind::Wall, i, wall)));
+            let (i, line, spot) = (record.sphere as usize, &record.line, record.spot);
+            found.extend(match cells.filter(|_| !spot.is_loose()) {
+                Some(cells) => {
+                    let walls = cells.walls_near(spot).iter().map(|&wall| wall as usize);
+                    walls_touched(model, &self.trajectories, record, walls)
+                }
+                None => walls_touched(model, &self.trajectories, record, 0..model.faces.len()),
+            });
             let mut pair = |seat: usize| {
                 let (j, other) = (records[seat].sphere as usize, &records[seat].line);
                 let slack = touching(line.r + other.r, line.x.abs().max(other.x.abs()).max_element());
@@ -72,11 +59,11 @@ impl<D: Detector> EventDriven<D> {
                     found.push((Kind::Pair, i, j));
                 }
             };
-            match &self.cells {
+            match cells {
                 None => (i + 1..records.len()).for_each(&mut pair),
                 Some(cells) => {
-                    cells.look(*spot, None, &mut near, records.len());
-                    near.seats().iter().for_each(|&seat| pair(seat as usize));
+                    cells.look(spot, None, &mut candidates, records.len());
+                    candidates.seats().iter().for_each(|&seat| pair(seat as usize));
                 }
             }
         }

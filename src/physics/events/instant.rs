@@ -11,12 +11,12 @@
 use std::collections::BTreeMap;
 
 use super::chattering::DECAY;
-use super::detector::Detector;
-use super::engine::EventDriven;
-use super::impact::ContactState;
+use super::contact_state::ContactState;
+use super::rounding::{CHAIN, LOST};
+use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
-use crate::physics::state::{Stall, State};
+use crate::physics::state::Stall;
 
 /// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
 pub(super) const LONG_CHAIN: u64 = 1000;
@@ -35,19 +35,9 @@ const MOST_AT_ONCE: u64 = 1_000_000 * OTHER;
 /// How much may happen before the clock must have advanced by more than rounding.
 const STRETCH: u64 = 20 * MOST_AT_ONCE;
 
-/// Share of the time scale of its fastest sphere below which a run's clock counts as at its zero: 2⁻⁸.
-const BEGINNING: f64 = 1.0 / 256.0;
-
-/// Below this share of the fastest approach of a chain, or of the speeds of its bodies, an approach is what the rounding of
-/// a thousand impacts may have made: 4096 ulp.
-const ROUNDING: f64 = 4096.0 * f64::EPSILON;
-
 /// Impacts by then of a contact that belongs to the same collapse, and rests with it: the limit of the chain is that none of
 /// them approaches any longer.
 const SHARE: u32 = 100;
-
-/// Approaches below this share of the speeds of their bodies are rounding: 64 ulp.
-const LOST: f64 = 64.0 * f64::EPSILON;
 
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]
@@ -67,117 +57,80 @@ pub(super) struct Instant {
 
 impl Instant {
     /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
-    pub(super) fn has_collapsed(&self, key: Key) -> bool {
+    pub(crate) fn has_collapsed(&self, key: Key) -> bool {
         self.collapsed && self.chain.get(&key).is_some_and(|&(count, _)| count > SHARE)
     }
 
-    /// The same of a contact that is about to collide once more, at a speed (m/s) of which an impact takes the share `loses`;
-    /// `speeds` are those of its bodies in all, and no approach slower than `least` can be told from none, m/s.
-    fn collapses(&mut self, key: Key, approach_speed: f64, loses: f64, [speeds, least]: [f64; 2]) -> bool {
+    /// Whether a contact that is about to collide once more at this instant has collapsed.
+    pub(super) fn collapses(&mut self, model: &Model, trajectories: &Trajectories, contact: &ContactState) -> bool {
         if self.events <= LONG_CHAIN {
             return false;
         }
-        let (count, fastest) = self.chain.entry(key).or_default();
+        let ((kind, a, b), approach_speed) = (contact.key, -contact.v_n);
+        let (restitution, other) = match kind {
+            Kind::Wall => (model.law.wall_restitution, 0.0),
+            Kind::Pair => (model.law.restitution, model.acceleration(b).length()),
+        };
+        // no approach slower than that can be told from none
+        let least = trajectories.clock_ulp() * (model.acceleration(a).length() + other);
+        let (count, fastest) = self.chain.entry(contact.key).or_default();
         *count = count.saturating_add(1);
-        *fastest = fastest.max(approach_speed).max(speeds);
-        let dies = f64::from(*count) * loses > DECAY && u64::from(*count) > LONG_CHAIN;
-        let rounds = approach_speed <= least.max(ROUNDING * *fastest);
+        *fastest = fastest.max(approach_speed).max(trajectories.speeds(contact.key));
+        let dies = f64::from(*count) * (1.0 - restitution) > DECAY && u64::from(*count) > LONG_CHAIN;
+        let rounds = approach_speed <= least.max(CHAIN * *fastest);
         self.collapsed |= dies || *count > SHARE && rounds;
-        self.has_collapsed(key)
+        self.has_collapsed(contact.key)
     }
 
     /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
     /// its island, which brings back this one. Held together for a moment, they are solved together.
-    pub(super) fn is_stuck(&mut self, key: Key) -> bool {
+    pub(crate) fn is_stuck(&mut self, key: Key) -> bool {
         let count = self.releases.entry(key).or_default();
         *count += 1;
         *count > STUCK
     }
 
-    /// The event in progress is an impact that changes what its bodies do: no loop of rounding, but part of a chain.
-    fn count_impact(&mut self) {
-        self.spent = self.spent.saturating_sub(OTHER - IMPACT);
-        self.stretch = self.stretch.saturating_sub(OTHER - IMPACT);
+    /// Tells an impact of a long chain, which changes what its bodies do, from a loop of rounding.
+    pub(super) fn count_impact(&mut self, trajectories: &Trajectories, contact: &ContactState) {
+        let long = self.events > LONG_CHAIN || self.stretch >= MOST_AT_ONCE;
+        if long && -contact.v_n > LOST * trajectories.speeds(contact.key) {
+            self.spent = self.spent.saturating_sub(OTHER - IMPACT);
+            self.stretch = self.stretch.saturating_sub(OTHER - IMPACT);
+        }
     }
-}
 
-/// The time that matters first after the start, s: a small share of what the first sphere takes to fall, or to go, by its
-/// radius. It only keeps the clock from being taken for infinitely fine at its zero; 0 if nothing moves.
-pub(super) fn beginning(model: &Model, state: &State) -> f64 {
-    let of = |i: usize| {
-        let r = model.radii[i];
-        (r / model.acceleration(i).length()).sqrt().min(r / state.v[i].length())
-    };
-    let first = (0..model.len()).map(of).fold(f64::INFINITY, f64::min);
-    if first.is_finite() { BEGINNING * first } else { 0.0 }
-}
-
-impl<D: Detector> EventDriven<D> {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
-    pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
-        let EventDriven { instant, now, beginning, .. } = self;
-        if time > *now {
-            *now = time;
-            (instant.events, instant.spent, instant.collapsed) = (0, 0, false);
-            if !instant.chain.is_empty() || !instant.releases.is_empty() {
-                instant.chain.clear();
-                instant.releases.clear();
+    pub(super) fn advance_clock(&mut self, trajectories: &mut Trajectories, time: f64) -> Result<(), Stall> {
+        if time > trajectories.now {
+            trajectories.now = time;
+            (self.events, self.spent, self.collapsed) = (0, 0, false);
+            if !self.chain.is_empty() || !self.releases.is_empty() {
+                self.chain.clear();
+                self.releases.clear();
             }
         }
-        instant.events += 1;
-        instant.spent += OTHER;
-        instant.stretch += OTHER;
-        let more = 1000 * OTHER * spheres as u64;
-        if instant.spent > MOST_AT_ONCE + more {
-            return Err(self.no_progress());
+        self.events += 1;
+        self.spent += OTHER;
+        self.stretch += OTHER;
+        let now = trajectories.now;
+        let more = 1000 * OTHER * trajectories.records.len() as u64;
+        if self.spent > MOST_AT_ONCE + more {
+            return Err(no_progress(now));
         }
-        if instant.stretch > STRETCH + more {
+        if self.stretch > STRETCH + more {
             // a nanosecond of the time scale: what a hundred million such stretches would still not leave behind
-            if *now - instant.since < 1e-9 * now.abs().max(*beginning) {
-                return Err(self.no_progress());
+            if now - self.since < 1e-9 * trajectories.clock_size() {
+                return Err(no_progress(now));
             }
-            (instant.stretch, instant.since) = (0, *now);
+            (self.stretch, self.since) = (0, now);
         }
         Ok(())
     }
+}
 
-    fn no_progress(&self) -> Stall {
-        let reason = format!(
-            "Events went on and on at t = {} s without the clock advancing; set a larger rest_speed, or change the method from here.",
-            self.now
-        );
-        Stall { time: self.now, kind: "no-progress", reason }
-    }
-
-    /// Rounding of the clock, s.
-    pub(super) fn clock_ulp(&self) -> f64 {
-        let t = self.now.abs().max(self.beginning);
-        t.next_up() - t
-    }
-
-    /// Whether a contact that is about to collide once more at this instant has collapsed.
-    pub(super) fn collapses(&mut self, model: &Model, meeting: &ContactState) -> bool {
-        let (kind, a, b) = meeting.key;
-        let (restitution, other) = match kind {
-            Kind::Wall => (model.law.wall_restitution, 0.0),
-            Kind::Pair => (model.law.restitution, model.acceleration(b).length()),
-        };
-        let least = self.clock_ulp() * (model.acceleration(a).length() + other);
-        let limits = [self.speeds(meeting.key), least];
-        self.instant.collapses(meeting.key, -meeting.v_n, 1.0 - restitution, limits)
-    }
-
-    /// Tells an impact in a long chain from a loop of rounding.
-    pub(super) fn count_impact(&mut self, meeting: &ContactState) {
-        let long = self.instant.events > LONG_CHAIN || self.instant.stretch >= MOST_AT_ONCE;
-        if long && -meeting.v_n > LOST * self.speeds(meeting.key) {
-            self.instant.count_impact();
-        }
-    }
-
-    /// The speeds of the bodies of a contact in all, m/s.
-    fn speeds(&self, (kind, a, b): Key) -> f64 {
-        let other = if kind == Kind::Pair { self.flight.line(b).v.length() } else { 0.0 };
-        self.flight.line(a).v.length() + other
-    }
+fn no_progress(now: f64) -> Stall {
+    let reason = format!(
+        "Events went on and on at t = {now} s without the clock advancing; set a larger rest_speed, or change the method from here."
+    );
+    Stall { time: now, kind: "no-progress", reason }
 }

@@ -1,93 +1,107 @@
-//! What the impact law makes of a contact, and where it has no further event in finite time or none that numbers can
-//! resolve: there the contact rests.
+//! Whether a contact rests: the test of every [`RestReason`] that an approach can have, in order.
+//!
+//! A contact rests where it has no further event in finite time, or none that numbers can resolve. What rests is tried by
+//! its island at once (`islands`): a contact that nothing presses lets go again.
 
-use super::detector::Detector;
-use super::engine::EventDriven;
-use super::impact::{ContactState, HOP, ZENO};
+use super::contact_state::ContactState;
+use super::curved::bodies::Body;
 use super::islands::equilibrium::closed_speed;
+use super::mechanics::Mechanics;
+use super::rest_reason::RestReason;
+use super::rounding::{CLOCK_ULPS, SUMMED_HOP};
 use crate::physics::contact::{Class, Key, Kind};
 use crate::physics::impact_law::classify;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::wall::touch;
 
-/// Bounces whose hops are lower than this many radii are summed up in closed form.
-pub(super) const SMALL_HOP: f64 = 1e-12;
-
 /// Cosine of the angle between two walls up to which an impulse off the one is mostly one off the other: 45°.
 const LEVEL: f64 = 0.7;
 
-impl<D: Detector> EventDriven<D> {
+/// What becomes of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Verdict {
+    /// It does not approach: nothing to do.
+    Leave,
+    /// An impact.
+    Collide,
+    /// It rests, if its island agrees.
+    Rest(RestReason),
+}
+
+impl Mechanics {
     /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
-    pub(super) fn class(&mut self, model: &Model, log: &mut Log, meeting: &ContactState, since: f64) -> Class {
-        let pressed = meeting.a_n < 0.0;
-        if pressed && (self.hops_within_the_clock(meeting) || meeting.hops_within_rounding(-meeting.a_n)) {
-            return Class::Rest;
+    pub(super) fn verdict(&mut self, model: &Model, log: &mut Log, contact: &ContactState, since: f64) -> Verdict {
+        if let Some(reason) = self.is_unresolved(model, contact) {
+            return Verdict::Rest(reason);
         }
-        let hop = meeting.v_n * meeting.v_n / (-2.0 * meeting.a_n);
-        let dies_out =
-            || self.bounce_series_duration(model, meeting) > 0.0 || self.bounces_undamped(model, meeting.key);
-        if pressed && hop <= SMALL_HOP * meeting.reach && dies_out() {
-            return Class::Rest;
+        match classify(contact.v_n, contact.a_n < 0.0, &model.law) {
+            Class::Collide => {}
+            Class::Rest => return Verdict::Rest(RestReason::Slow),
+            Class::Leave | Class::Release => return Verdict::Leave,
         }
-        let class = classify(meeting.v_n, pressed, &model.law);
-        if class == Class::Collide && self.is_held_down(model, meeting) {
-            return Class::Rest;
+        if self.is_held_down(model, contact) {
+            return Verdict::Rest(RestReason::HeldDown);
         }
-        if class == Class::Collide && self.chatters(model, meeting, since) {
+        let Mechanics { trajectories, rests, impacts } = self;
+        if impacts.chatter.is_endless(model, (trajectories, rests), contact, since) {
             log.tallies.collapses += 1;
-            return Class::Rest;
+            return Verdict::Rest(RestReason::Chatter);
         }
         // of a chain that collapses elastic contacts are a part too, as long as something in the scene is lossy
         let lossy = model.law.restitution < 1.0 || model.law.wall_restitution < 1.0;
-        if class == Class::Collide && lossy && self.collapses(model, meeting) {
+        if lossy && impacts.instant.collapses(model, trajectories, contact) {
             log.tallies.collapses += 1;
-            return Class::Rest;
+            return Verdict::Rest(RestReason::Collapse);
         }
-        class
+        Verdict::Collide
+    }
+
+    /// Why a contact that is pressed has no event left that is worth one, if that is so.
+    fn is_unresolved(&self, model: &Model, contact: &ContactState) -> Option<RestReason> {
+        if contact.a_n >= 0.0 || contact.a_n.is_nan() {
+            return None;
+        }
+        if contact.hops_within_the_clock(self.trajectories.clock_ulp()) {
+            return Some(RestReason::WithinClock);
+        }
+        if contact.hops_within_rounding(-contact.a_n) {
+            return Some(RestReason::WithinCoordinates);
+        }
+        let hop = contact.v_n * contact.v_n / (-2.0 * contact.a_n);
+        if hop <= SUMMED_HOP * contact.reach {
+            if contact.bounce_series_duration(model) > 0.0 {
+                return Some(RestReason::SeriesSummed);
+            }
+            if self.bounces_undamped(model, contact.key) {
+                return Some(RestReason::Undamped);
+            }
+        }
+        None
     }
 
     /// Whether an impact on a wall would lift the sphere off another one that it rests on, nearly level with this one, by
     /// no more than counts as closed there: that rest would take the impulse back, and the same impact would come again.
-    fn is_held_down(&self, model: &Model, meeting: &ContactState) -> bool {
-        let (kind, i, wall) = meeting.key;
+    fn is_held_down(&self, model: &Model, contact: &ContactState) -> bool {
+        let (kind, i, wall) = contact.key;
         if kind == Kind::Pair || self.rests.count(i) == 0 {
             return false;
         }
-        let kick = (1.0 + model.law.wall_restitution) * -meeting.v_n;
-        let body = self.body(model, i);
+        let kick = (1.0 + model.law.wall_restitution) * -contact.v_n;
+        let body = Body::of(model, &self.trajectories, i);
         let level = |&(kind, _, other): &Key| {
-            let cosine = || touch(&model.faces[other], body.x, body.r).normal.dot(meeting.normal);
+            let cosine = || touch(&model.faces[other], body.x, body.r).normal.dot(contact.normal);
             kind == Kind::Wall && other != wall && cosine() >= LEVEL
         };
-        kick <= closed_speed(&body, ZENO * self.clock_ulp()) && self.rests.of(i).iter().any(level)
-    }
-
-    /// Whether bodies pressed together would be apart for no longer than the clock can tell.
-    fn hops_within_the_clock(&self, meeting: &ContactState) -> bool {
-        meeting.v_n.abs() <= ZENO * -meeting.a_n * self.clock_ulp()
-    }
-
-    /// Whether a hop, pressed together, is one that coordinates and clock can tell from none.
-    pub(super) fn hops(&self, meeting: &ContactState) -> bool {
-        !self.hops_within_the_clock(meeting) && !meeting.hops_within_rounding(-meeting.a_n)
-    }
-
-    /// How high a hop may be (m) to be one of a series that is summed up: what coordinates resolve, at least, and out of
-    /// an overlap, which hides the rest of the series.
-    pub(super) fn small_hop(meeting: &ContactState) -> f64 {
-        (SMALL_HOP * meeting.reach).max(HOP * meeting.size()).max(-meeting.gap)
+        kick <= closed_speed(&body, CLOCK_ULPS * self.trajectories.clock_ulp()) && self.rests.of(i).iter().any(level)
     }
 
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
     /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end. Not
     /// where nothing at all is lost.
     fn bounces_undamped(&self, model: &Model, (kind, a, b): Key) -> bool {
-        let law = &model.law;
-        let beside = |wall| {
-            touch(&model.faces[wall], self.flight.line(a).x, self.flight.line(a).r).gap
-                <= SMALL_HOP * self.flight.line(a).r
-        };
+        let (law, line) = (&model.law, self.trajectories.line(a));
+        let beside = |wall: usize| touch(&model.faces[wall], line.x, line.r).gap <= SUMMED_HOP * line.r;
         kind == Kind::Wall
             && law.wall_restitution == 1.0
             && !(law.restitution == 1.0 && law.tangential == 1.0)

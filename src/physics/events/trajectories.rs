@@ -1,94 +1,68 @@
-//! Delayed states: a sphere's line (x, v at its own time) is rewritten only when something happens to it.
+//! Delayed states: a sphere's trajectory (x and v at its own time) is rewritten only when something happens to it; and
+//! the clock, the time of the last event.
 //!
-//! Looking never rewrites a line, so that no display rate changes a bit of the trajectory; what a frame rewrote is kept
+//! Looking never rewrites a trajectory, so that no display rate changes a bit of the run; what a frame rewrote is kept
 //! until the next one, so that a state within the frame can be read.
 //!
 //! What an event needs of a sphere is one record of two cache lines. Records may lie in another order than the scene's,
-//! neighbours in space side by side: sphere i has the seat s. All that decides anything goes by i; only who walks through
-//! neighbours goes by seats, and finds the same, but for the last digit of searches that what was found first cuts short
-//! (`swept`, and pairs with different accelerations). Seats follow from the run alone, so that its bits do too.
+//! neighbours in space side by side: sphere i has the seat s. Results depend on sphere indices only; seats fix the order
+//! in which neighbours are visited, which may change a last bit where a search stops at the best time so far (`swept`,
+//! and pairs with different accelerations). Seats follow from the run alone, so that its bits do too.
 
 use glam::DVec3;
 
-use super::schedule::cells::CellRef;
-use super::schedule::prediction::Plan;
-use crate::physics::contact::Kind;
+use super::record::{CellRef, Plan, Record, Trajectory};
+use crate::physics::contact::{Key, Kind};
 use crate::physics::model::{Model, Pull};
 use crate::physics::path::Path;
-use crate::physics::state::State;
+use crate::physics::state::{Stall, State, runaway};
 
-/// Where a sphere was at its own time: 64 bytes, one cache line, twice four numbers for who reads four at once.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
-pub(super) struct Trajectory {
-    /// Centre, m.
-    pub(super) x: DVec3,
-    /// When, s.
-    pub(super) t: f64,
-    /// Velocity, m/s.
-    pub(super) v: DVec3,
-    /// Radius, m.
-    pub(super) r: f64,
-}
+/// Share of the time scale of its fastest sphere below which a run's clock counts as at its zero: 2⁻⁸.
+const BEGINNING: f64 = 1.0 / 256.0;
 
-impl Trajectory {
-    /// The path from time `t` (s) on, with acceleration `a`, m/s².
-    #[inline(always)]
-    pub(super) fn path(&self, a: DVec3, t: f64) -> Path {
-        let dt = t - self.t;
-        Path { x: self.x + (self.v + a * (0.5 * dt)) * dt, v: self.v + a * dt, a }
-    }
-
-    /// The same line, brought to time `t`, s.
-    #[inline(always)]
-    pub(super) fn brought(&self, a: DVec3, t: f64) -> Trajectory {
-        let Path { x, v, .. } = self.path(a, t);
-        if t == self.t { *self } else { Trajectory { x, t, v, r: self.r } }
-    }
-}
-
-/// All that an event needs of a sphere: two cache lines, of which those who only look at it read the first.
-#[derive(Debug, Clone, Copy)]
-#[repr(C, align(128))]
-pub(super) struct Record {
-    pub(super) line: Trajectory,
-    pub(super) plan: Plan,
-    /// The cube it is in, if there are cells.
-    pub(super) spot: CellRef,
-    /// How often its motion has changed.
-    pub(super) stamp: u32,
-    /// Its index in the scene.
-    pub(super) sphere: u32,
-    /// 1 / m, 1/kg.
-    pub(super) inverse_mass: f64,
-}
-
-/// A line that was rewritten in this frame.
+/// A trajectory that was rewritten in this frame.
 #[derive(Debug, Clone, Copy)]
 struct Past {
     sphere: u32,
     /// When it was replaced, s.
     until: f64,
     line: Trajectory,
+    /// m/s².
     acceleration: DVec3,
 }
 
-/// The records of all spheres.
+/// The clock, and the records of all spheres.
 #[derive(Debug, Clone)]
-pub(super) struct Trajectories {
+pub(crate) struct Trajectories {
+    /// Time of the last event, s.
+    pub(crate) now: f64,
     /// By seat.
-    pub(super) records: Vec<Record>,
+    pub(crate) records: Vec<Record>,
+    /// The time scale of the start, s: what the clock is taken for at its zero.
+    time_scale: f64,
     /// The seat of each sphere; empty as long as each sits at its index.
     seats: Vec<u32>,
     /// What accelerates every sphere alike, m/s², as long as `accelerations` is empty.
     common: DVec3,
-    /// Acceleration of each, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
+    /// Acceleration by sphere, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
     accelerations: Vec<DVec3>,
     past: Vec<Past>,
 }
 
+/// The time that matters first after the start, s: a small share of what the first sphere takes to fall, or to go, by its
+/// radius. It only keeps the clock from being taken for infinitely fine at its zero; 0 if nothing moves.
+fn time_scale(model: &Model, state: &State) -> f64 {
+    let of = |i: usize| {
+        let r = model.radii[i];
+        (r / model.acceleration(i).length()).sqrt().min(r / state.v[i].length())
+    };
+    let first = (0..model.len()).map(of).fold(f64::INFINITY, f64::min);
+    if first.is_finite() { BEGINNING * first } else { 0.0 }
+}
+
 impl Trajectories {
-    pub(super) fn new(model: &Model, state: &State) -> Trajectories {
+    /// Of spheres at `state`, the clock at its time.
+    pub(crate) fn new(model: &Model, state: &State) -> Trajectories {
         let record = |i: usize| Record {
             line: Trajectory { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
             plan: Plan::IDLE,
@@ -102,44 +76,62 @@ impl Trajectories {
             Pull::Uniform(g) => (g, Vec::new()),
             Pull::PerSphere => (DVec3::ZERO, model.accelerations.clone()),
         };
-        let records = (0..model.len()).map(record).collect();
-        Trajectories { records, seats: Vec::new(), common, accelerations, past: Vec::new() }
+        Trajectories {
+            now: state.t,
+            records: (0..model.len()).map(record).collect(),
+            time_scale: time_scale(model, state),
+            seats: Vec::new(),
+            common,
+            accelerations,
+            past: Vec::new(),
+        }
     }
 
-    /// Where sphere `i` sits.
+    /// The time at which the clock's rounding is taken, s: now, or at the clock's zero the time scale of the start.
+    pub(crate) fn clock_size(&self) -> f64 {
+        self.now.abs().max(self.time_scale)
+    }
+
+    /// Rounding of the clock: one ulp, s.
+    pub(crate) fn clock_ulp(&self) -> f64 {
+        let t = self.clock_size();
+        t.next_up() - t
+    }
+
+    /// The seat of sphere `i`.
     #[inline]
-    pub(super) fn seat(&self, i: usize) -> usize {
+    pub(crate) fn seat(&self, i: usize) -> usize {
         if self.seats.is_empty() { i } else { self.seats[i] as usize }
     }
 
     /// The sphere at a seat.
     #[inline]
-    pub(super) fn sphere(&self, seat: usize) -> usize {
+    pub(crate) fn sphere(&self, seat: usize) -> usize {
         self.records[seat].sphere as usize
     }
 
-    /// The line of sphere `i`.
+    /// The trajectory of sphere `i`.
     #[inline]
-    pub(super) fn line(&self, i: usize) -> &Trajectory {
+    pub(crate) fn line(&self, i: usize) -> &Trajectory {
         &self.records[self.seat(i)].line
     }
 
     /// 1 / m of sphere `i`, 1/kg.
     #[inline]
-    pub(super) fn inverse_mass(&self, i: usize) -> f64 {
+    pub(crate) fn inverse_mass(&self, i: usize) -> f64 {
         self.records[self.seat(i)].inverse_mass
     }
 
     /// The motion of sphere `i` has changed: what others planned with it is stale.
     #[inline]
-    pub(super) fn stamp(&mut self, i: usize) {
+    pub(crate) fn stamp(&mut self, i: usize) {
         let seat = self.seat(i);
         let stamp = &mut self.records[seat].stamp;
         *stamp = stamp.wrapping_add(1);
     }
 
-    /// Seats everybody anew: who sat at `order[s]` now sits at s.
-    pub(super) fn reseat(&mut self, order: &[u32]) {
+    /// Reorders the records: the one at seat `order[s]` comes to seat s.
+    pub(crate) fn reseat(&mut self, order: &[u32]) {
         self.records = order.iter().map(|&seat| self.records[seat as usize]).collect();
         let mut now = vec![0; order.len()];
         for (seat, &before) in order.iter().enumerate() {
@@ -158,52 +150,56 @@ impl Trajectories {
 
     /// Acceleration of sphere `i`, m/s².
     #[inline]
-    pub(super) fn acceleration(&self, i: usize) -> DVec3 {
+    pub(crate) fn acceleration(&self, i: usize) -> DVec3 {
         if self.accelerations.is_empty() { self.common } else { self.accelerations[i] }
     }
 
     /// What accelerates every sphere alike, m/s²; none once they differ.
     #[inline]
-    pub(super) fn common(&self) -> Option<DVec3> {
+    pub(crate) fn common(&self) -> Option<DVec3> {
         self.accelerations.is_empty().then_some(self.common)
     }
 
     /// The path of sphere `i` from time `t` (s) on.
     #[inline]
-    pub(super) fn path(&self, i: usize, t: f64) -> Path {
-        self.path_from(self.seat(i), t)
+    pub(crate) fn path(&self, i: usize, t: f64) -> Path {
+        let record = &self.records[self.seat(i)];
+        record.line.path(self.acceleration(i), t)
     }
 
-    /// The path of the sphere at a seat from time `t` (s) on.
+    /// The path of the sphere at a seat from now on.
     #[inline]
-    pub(super) fn path_from(&self, seat: usize, t: f64) -> Path {
+    pub(crate) fn path_from(&self, seat: usize) -> Path {
         let record = &self.records[seat];
-        record.line.path(self.acceleration(record.sphere as usize), t)
+        record.line.path(self.acceleration(record.sphere as usize), self.now)
     }
 
-    /// Rewrites the line of sphere `i`: from time `t` on it starts at `x` with `v`.
+    /// Rewrites the trajectory of sphere `i`: from now on it starts at `x` (m) with `v` (m/s).
     #[inline]
-    pub(super) fn rewrite(&mut self, i: usize, t: f64, x: DVec3, v: DVec3) {
+    pub(crate) fn rewrite(&mut self, i: usize, x: DVec3, v: DVec3) {
+        let t = self.now;
         self.keep(i, t);
         let seat = self.seat(i);
         let line = &mut self.records[seat].line;
         *line = Trajectory { x, v, t, r: line.r };
     }
 
-    /// Brings the line of sphere `i` to time `t`, s.
+    /// Brings the trajectory of sphere `i` to the present.
     #[inline]
-    pub(super) fn bring(&mut self, i: usize, t: f64) {
+    pub(crate) fn advance(&mut self, i: usize) {
+        let t = self.now;
         let (seat, acceleration) = (self.seat(i), self.acceleration(i));
         let line = &mut self.records[seat].line;
         if line.t != t {
             self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
-            *line = line.brought(acceleration, t);
+            *line = line.advanced_to(acceleration, t);
         }
     }
 
-    /// From now on the sphere at a seat, which shares what accelerates all, is on another line: what others planned with it is stale.
+    /// From now on the sphere at a seat, which shares what accelerates all, is on another trajectory: what others planned
+    /// with it is stale.
     #[inline]
-    pub(super) fn turn(&mut self, seat: usize, line: Trajectory) {
+    pub(crate) fn redirect(&mut self, seat: usize, line: Trajectory) {
         let record = &mut self.records[seat];
         if record.line.t != line.t {
             let past = Past { sphere: record.sphere, until: line.t, line: record.line, acceleration: self.common };
@@ -212,8 +208,14 @@ impl Trajectories {
         (record.line, record.stamp) = (line, record.stamp.wrapping_add(1));
     }
 
-    /// Gives sphere `i`, whose line is at the present, another acceleration, m/s².
-    pub(super) fn accelerate(&mut self, i: usize, a: DVec3) {
+    /// Changes the velocity of sphere `i`, whose trajectory is at the present, by `change`, m/s.
+    pub(crate) fn push(&mut self, i: usize, change: DVec3) {
+        let line = *self.line(i);
+        self.rewrite(i, line.x, line.v + change);
+    }
+
+    /// Gives sphere `i`, whose trajectory is at the present, another acceleration, m/s².
+    pub(crate) fn accelerate(&mut self, i: usize, a: DVec3) {
         if a == self.acceleration(i) {
             return;
         }
@@ -222,21 +224,21 @@ impl Trajectories {
         self.accelerations[i] = a;
     }
 
-    /// From here on, frames before are forgotten.
-    pub(super) fn forget(&mut self) {
+    /// A frame begins: states of earlier ones can no longer be read.
+    pub(crate) fn forget_past(&mut self) {
         self.past.clear();
     }
 
-    /// Every sphere's path from time `t` on, by the lines of now.
-    pub(super) fn now(&self, t: f64) -> State {
+    /// The state at time `t` (s) by the trajectories of now.
+    fn by_current(&self, t: f64) -> State {
         let paths = || (0..self.records.len()).map(|i| self.path(i, t));
         State { t, x: paths().map(|p| p.x).collect(), v: paths().map(|p| p.v).collect() }
     }
 
-    /// The state at a time `t` (s) of this frame, by the lines that held then.
-    pub(super) fn then(&self, t: f64) -> State {
-        let mut state = self.now(t);
-        // latest first, so that the oldest line still in force at t is applied last
+    /// The state at a time `t` (s) of this frame, by the trajectories that held then.
+    pub(crate) fn state_at(&self, t: f64) -> State {
+        let mut state = self.by_current(t);
+        // latest first, so that the oldest trajectory still in force at t is applied last
         for past in self.past.iter().rev().filter(|past| past.until > t) {
             let (i, a, dt) = (past.sphere as usize, past.acceleration, t - past.line.t);
             state.x[i] = past.line.x + (past.line.v + a * (0.5 * dt)) * dt;
@@ -245,12 +247,45 @@ impl Trajectories {
         state
     }
 
+    /// Remembers the trajectory that sphere `i` was on until `until`, s.
     fn keep(&mut self, i: usize, until: f64) {
-        // a line replaced at its own time was never in force
+        // a trajectory replaced at its own time was never in force
         let line = *self.line(i);
         if line.t == until {
             return;
         }
         self.past.push(Past { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
+    }
+
+    /// Which contact a plan of the sphere at a seat means.
+    #[inline]
+    pub(crate) fn key(&self, seat: usize, plan: &Plan) -> Key {
+        let i = self.sphere(seat);
+        match plan.kind {
+            Kind::Wall => (Kind::Wall, i, plan.other as usize),
+            Kind::Pair => {
+                let j = self.sphere(plan.other as usize);
+                (Kind::Pair, i.min(j), i.max(j))
+            }
+        }
+    }
+
+    /// The speeds of the bodies of a contact in all, m/s.
+    pub(crate) fn speeds(&self, (kind, a, b): Key) -> f64 {
+        let other = if kind == Kind::Pair { self.line(b).v.length() } else { 0.0 };
+        self.line(a).v.length() + other
+    }
+
+    /// Says so if what has just happened sends sphere `i` out of the range of numbers.
+    pub(crate) fn check_range(&self, i: usize) -> Result<(), Stall> {
+        self.check_range_at(self.seat(i))
+    }
+
+    /// Says so if what has just happened sends the sphere at a seat out of the range of numbers.
+    #[inline]
+    pub(crate) fn check_range_at(&self, seat: usize) -> Result<(), Stall> {
+        let line = &self.records[seat].line;
+        let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
+        runaway(self.sphere(seat), self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

@@ -1,15 +1,15 @@
 //! The event-driven method: no time step. Between events every sphere moves on a parabola; the next event is computed,
 //! not searched for by stepping. The yardstick of the other methods.
 
-mod root_detector;
+pub(super) mod root_detector;
 
-use super::events::engine::EventDriven;
+use super::events::resumable::Resumable;
 use super::method::Description;
 use super::model::Method;
 use root_detector::RootDetector;
 
 /// The method at work.
-pub(super) type Exact = EventDriven<RootDetector>;
+pub(super) type Exact = Resumable<RootDetector>;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {

@@ -7,15 +7,20 @@ use crate::physics::model::Settings;
 use crate::physics::path::Path;
 use crate::physics::wall::Face;
 
-/// The detector of `exact`.
+/// The detector of `exact`: every answer is a contact, exact up to rounding, and costs the same wherever it lies.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RootDetector;
 
 impl Detector for RootDetector {
-    const SOLVES: bool = true;
+    const PAIRS_FIRST: bool = true;
+    const STRAIGHT_PAIRS: bool = true;
 
     fn new(_: Settings) -> RootDetector {
         RootDetector
+    }
+
+    fn retune(&mut self, _: Settings) -> bool {
+        false
     }
 
     #[inline]
@@ -28,5 +33,12 @@ impl Detector for RootDetector {
         sphere_sphere(&a.relative_to(b), reach, span.before).map(|after| Due { after, sure: true })
     }
 
-    fn report(&mut self, _: f64, _: f64, _: &mut Log) {}
+    #[inline]
+    fn pair_horizon(mine: f64, _: f64) -> f64 {
+        mine
+    }
+
+    fn report(&mut self, _: f64, _: f64, pairs: u64, log: &mut Log) {
+        log.tallies.evaluations += pairs;
+    }
 }

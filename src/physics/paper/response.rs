@@ -63,7 +63,7 @@ impl Paper {
         }
         let along = match kind {
             Kind::Wall => {
-                let impulse = impact_law::wall_impulse(model, a, self.end.v[a], n, *v_n, class);
+                let impulse = impact_law::wall_impulse(model, a, self.end.v[a], n, class);
                 self.next.of(a).impulse += impulse;
                 impulse.dot(n)
             }

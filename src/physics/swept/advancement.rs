@@ -46,11 +46,21 @@ pub(crate) struct ConservativeAdvancement {
 }
 
 impl Detector for ConservativeAdvancement {
-    const SOLVES: bool = false;
+    const PAIRS_FIRST: bool = false;
+    const STRAIGHT_PAIRS: bool = false;
 
     fn new(settings: Settings) -> ConservativeAdvancement {
         let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);
         ConservativeAdvancement { tolerance, evaluations: Cell::new(0), probes: RefCell::default() }
+    }
+
+    fn retune(&mut self, settings: Settings) -> bool {
+        let new = ConservativeAdvancement::new(settings);
+        let changes = new.tolerance != self.tolerance;
+        if changes {
+            *self = new;
+        }
+        changes
     }
 
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
@@ -66,7 +76,11 @@ impl Detector for ConservativeAdvancement {
         self.search(&pair, span)
     }
 
-    fn report(&mut self, start: f64, end: f64, log: &mut Log) {
+    fn pair_horizon(mine: f64, theirs: f64) -> f64 {
+        mine.min(theirs)
+    }
+
+    fn report(&mut self, start: f64, end: f64, _: u64, log: &mut Log) {
         log.tallies.evaluations += self.evaluations.take();
         let before = log.probes.len();
         self.probes.get_mut().retain(|&(time, degree)| {

@@ -10,13 +10,13 @@
 mod advancement;
 mod separation;
 
-use super::events::engine::EventDriven;
+use super::events::resumable::Resumable;
 use super::method::Description;
 use super::model::Method;
 use advancement::ConservativeAdvancement;
 
 /// The method at work.
-pub(super) type Swept = EventDriven<ConservativeAdvancement>;
+pub(super) type Swept = Resumable<ConservativeAdvancement>;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {

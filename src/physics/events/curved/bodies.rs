@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::physics::events::trajectories::Trajectories;
+use crate::physics::model::Model;
 use crate::physics::support::{Resting, Surface};
 use crate::physics::wall::{Face, Part, edge_direction, touch_part};
 
@@ -18,6 +20,20 @@ pub(crate) struct Body {
     pub(crate) inverse_mass: f64,
     /// Radius, m.
     pub(crate) r: f64,
+}
+
+impl Body {
+    /// Sphere `i`, whose trajectory is at the present, as a body of an island.
+    pub(crate) fn of(model: &Model, trajectories: &Trajectories, i: usize) -> Body {
+        let line = trajectories.line(i);
+        Body {
+            x: line.x,
+            v: line.v,
+            applied: model.acceleration(i),
+            inverse_mass: model.inverse_masses[i],
+            r: model.radii[i],
+        }
+    }
 }
 
 /// What a body of the island touches.

@@ -8,11 +8,8 @@
 use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
-use crate::physics::events::impact::HOP;
+use crate::physics::events::rounding::{HOP, SUM};
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
-
-/// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
-pub(crate) const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// A contact of a curved island that opens by no more than this share of the accelerations is looked at again after
 /// every step.
@@ -105,7 +102,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) 
 fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
     let approaches = |contact: &Resting| {
         let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
-        relative(contact, &|body| velocity[body]).dot(contact.normal) < -ROUNDING * speed
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -SUM * speed
     };
     let opposes = |(one, other): (&Resting, &Resting)| one.a == other.a && one.normal.dot(other.normal) < OPPOSED;
     let pairs = || resting.iter().enumerate().flat_map(|(k, one)| resting[..k].iter().map(move |other| (one, other)));
@@ -116,7 +113,7 @@ fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
 /// (`tick`, s) or the coordinates can tell.
 pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
     let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
-    tick * pull + ROUNDING * body.v.length() + (2.0 * pull * HOP * size).sqrt()
+    tick * pull + SUM * body.v.length() + (2.0 * pull * HOP * size).sqrt()
 }
 
 /// u of the first body less u of the second.
@@ -134,7 +131,7 @@ impl Settled {
         let a = relative(contact, &|body| self.a[body]);
         let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
         let noise = self.noise(contact, bodies);
-        if self.curved && opening <= BARELY / ROUNDING * noise {
+        if self.curved && opening <= BARELY / SUM * noise {
             // the chord that stands for a curved motion could press it: it stays until the next step looks again
             return Fate::Idle;
         }
@@ -145,13 +142,13 @@ impl Settled {
     /// Size of the rounding of relative accelerations, m/s².
     fn noise(&self, contact: &Resting, bodies: &[Body]) -> f64 {
         let of = |body: usize| bodies[body].applied.length() + self.a[body].length();
-        ROUNDING * (of(contact.a) + contact.b.map_or(0.0, of))
+        SUM * (of(contact.a) + contact.b.map_or(0.0, of))
     }
 
     /// Whether the normal of a contact turns: its bodies move, or begin to move, past each other.
     fn turns(&self, contact: &Resting, bodies: &[Body]) -> bool {
         let speed = |body: usize| bodies[body].v.length();
-        let noise = ROUNDING * (speed(contact.a) + contact.b.map_or(0.0, speed));
+        let noise = SUM * (speed(contact.a) + contact.b.map_or(0.0, speed));
         turning(contact, relative(contact, &|body| bodies[body].v)).length() > noise
             || turning(contact, relative(contact, &|body| self.a[body])).length() > self.noise(contact, bodies)
     }
@@ -184,7 +181,7 @@ impl Settled {
             }
             let approaches = |index: usize| {
                 let contact = &resting[index];
-                let noise = ROUNDING * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
+                let noise = SUM * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
                 // the normal of an edge, or a corner, is off by as much as its border is late: what opens there may seem to close
                 let sharp = contact.b.is_none() && contact.surface != Surface::Face;
                 let may_close = self.fate[index] == Fate::Idle || !sharp;
@@ -198,7 +195,7 @@ impl Settled {
         }
         let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
         let opens = |index: usize| {
-            let noise = ROUNDING * before[resting[index].a].length();
+            let noise = SUM * before[resting[index].a].length();
             holds[index] && relative(&resting[index], &|body| before[body]).dot(resting[index].normal) > noise
         };
         let opening: Vec<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
@@ -222,7 +219,7 @@ impl Settled {
         }
         for (contact, fate) in resting.iter().zip(&mut self.fate).filter(|(_, fate)| **fate == Fate::Idle) {
             let speed = bodies[contact.a].v.length() + contact.b.map_or(0.0, |b| bodies[b].v.length());
-            if relative(contact, &|body| bodies[body].v).dot(contact.normal) > ROUNDING * speed {
+            if relative(contact, &|body| bodies[body].v).dot(contact.normal) > SUM * speed {
                 *fate = Fate::Opening;
             }
         }

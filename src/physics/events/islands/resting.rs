@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc as Shared;
 
 use crate::physics::contact::{Key, Kind};
-use crate::physics::events::bounce::Rub;
+use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::arc::Arc;
 use crate::physics::events::curved::bodies::{Body, Closed, On};
-use crate::physics::events::impact::ContactState;
+use crate::physics::events::rest_reason::RestReason;
+use crate::physics::events::rub::Rub;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::state::State;
@@ -24,7 +25,9 @@ pub(super) struct RestingContact {
     pub(super) part: Part,
     /// Whether its `rest` row has been written.
     pub(super) announced: bool,
-    /// v_n when it was proposed, m/s.
+    /// Why it rests.
+    pub(super) reason: RestReason,
+    /// v_n when it was added, m/s.
     pub(super) v_n: f64,
     /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
     /// again then, and no rest announced before.
@@ -64,13 +67,13 @@ pub(super) struct Island {
 
 /// A curved motion, and the chord parabola that stands for it now.
 #[derive(Debug, Clone)]
-pub(super) struct Curve {
+pub(crate) struct Curve {
     pub(super) arc: Shared<Arc>,
     pub(super) contacts: Shared<[IslandContact]>,
     /// Where on the arc the chord begins, s.
     pub(super) offset: f64,
     /// When the chord began, s; infinite once the spheres have been brought off it.
-    pub(super) from: f64,
+    pub(crate) from: f64,
     /// Its length, s.
     pub(super) length: f64,
     /// Whether a contact lets go or changes its part at the end.
@@ -140,7 +143,7 @@ impl Curve {
     }
 
     /// The same, integrated.
-    pub(super) fn real(&self, model: &Model, time: f64) -> Vec<Body> {
+    pub(crate) fn real(&self, model: &Model, time: f64) -> Vec<Body> {
         self.arc.real(self.offset + time.min(self.length), &closed(model, &self.contacts))
     }
 }
@@ -166,12 +169,24 @@ pub(crate) struct Rests {
     pub(super) dirty: Vec<usize>,
     /// In the order of their ends.
     pub(super) past: Vec<Past>,
+    /// When the frame under way began, s.
+    pub(super) frame_start: f64,
     curves: usize,
     curved_since: f64,
     curved_time: f64,
 }
 
 impl Rests {
+    /// Nothing rests, and a frame begins at `time`, s.
+    pub(crate) fn new(time: f64) -> Rests {
+        Rests { frame_start: time, ..Rests::default() }
+    }
+
+    /// Why a contact rests; none if it does not.
+    pub(crate) fn reason(&self, key: Key) -> Option<RestReason> {
+        self.held.get(&key).filter(|held| held.announced).map(|held| held.reason)
+    }
+
     /// Whether nothing rests.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
@@ -237,20 +252,21 @@ impl Rests {
         self.curves = self.curves.saturating_add_signed(change);
     }
 
-    /// A contact may rest from now on: the island it belongs to will decide.
+    /// A contact may rest from now on, for this reason: the island that it belongs to will decide, and is solved again at
+    /// `settles_at`, s.
     pub(crate) fn add(
         &mut self,
         model: &Model,
-        flight: &Trajectories,
-        now: f64,
-        meeting: &ContactState,
-        bounces_until: f64,
+        trajectories: &Trajectories,
+        contact: &ContactState,
+        reason: RestReason,
+        settles_at: f64,
     ) {
-        let (kind, a, b) = meeting.key;
+        let (kind, a, b) = contact.key;
         let part = match kind {
             Kind::Wall => {
-                let path = flight.path(a, now);
-                let v = path.v - meeting.normal * meeting.v_n;
+                let path = trajectories.path(a, trajectories.now);
+                let v = path.v - contact.normal * contact.v_n;
                 part_ahead(&model.faces[b], path.x, v, path.a, model.radii[a])
             }
             Kind::Pair => Part::Face,
@@ -262,15 +278,16 @@ impl Rests {
         let held = RestingContact {
             part,
             announced: false,
-            v_n: meeting.v_n,
-            settles_at: bounces_until,
+            v_n: contact.v_n,
+            settles_at,
+            reason,
             load: Load::default(),
             rub: None,
         };
-        if self.held.insert(meeting.key, held).is_none() {
-            self.of[a].push(meeting.key);
+        if self.held.insert(contact.key, held).is_none() {
+            self.of[a].push(contact.key);
             if kind == Kind::Pair {
-                self.of[b].push(meeting.key);
+                self.of[b].push(contact.key);
             }
         }
         self.dirty.push(a);
@@ -379,6 +396,19 @@ impl Rests {
 }
 
 impl Rests {
+    /// If sphere `i` follows a chord that began before `now` (s), its island leaves it, and must be solved again: its
+    /// spheres, and the curve with the chord that they followed.
+    pub(crate) fn leave_chord(&mut self, i: usize, now: f64) -> Option<(Vec<usize>, Curve)> {
+        let island = self.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now))?;
+        let (spheres, curve) = (island.spheres.clone(), island.curve.as_mut()?);
+        let followed = curve.clone();
+        // the trajectories are off the chord now: it must not be followed, nor the step be read, any longer
+        curve.from = f64::INFINITY;
+        self.remember_chord(&spheres, &followed, now);
+        self.dirty.push(i);
+        Some((spheres, followed))
+    }
+
     pub(super) fn island_mut(&mut self, i: usize) -> Option<&mut Island> {
         let number = *self.island_of.get(i)?;
         self.islands.get_mut(number as usize)?.as_mut()

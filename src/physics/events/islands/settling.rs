@@ -2,14 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use super::equilibrium::{ROUNDING, Settled, solve_island};
+use super::equilibrium::{Settled, solve_island};
 use super::resting::{Curve, Island, IslandContact, Other, RestingContact, closed};
 use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::events::changed::Changed;
+use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::bodies::Body;
-use crate::physics::events::detector::Detector;
-use crate::physics::events::engine::EventDriven;
-use crate::physics::events::impact::{ContactState, ZENO};
-use crate::physics::events::rest_criteria::SMALL_HOP;
+use crate::physics::events::mechanics::Mechanics;
+use crate::physics::events::rest_reason::RestReason;
+use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::Stall;
@@ -21,33 +22,7 @@ use crate::physics::wall_parts::{part_ahead, part_end};
 /// part by more than rounding, too short to be seen.
 const PAUSE: f64 = 1e-7;
 
-/// Contacts of one sphere are at one point if no farther apart than this, in radii: between rounding, and an angle at
-/// which the approach to the second wall shows before it overlaps.
-const SHARED_POINT: f64 = 1e-8;
-
-/// Gap to a wall at such a point that counts as none, relative to the coordinates: 64 ulp.
-const SHARED_GAP: f64 = 64.0 * f64::EPSILON;
-
-impl<D: Detector> EventDriven<D> {
-    /// Brings the line of sphere `i` to the present; if it moves on an arc, its whole island's, which must then settle.
-    pub(crate) fn bring(&mut self, model: &Model, i: usize) {
-        let now = self.now;
-        let island = self.rests.island_mut(i).filter(|island| island.curve.as_ref().is_some_and(|c| c.from < now));
-        let Some(Island { spheres, curve: Some(curve), .. }) = island else {
-            self.flight.bring(i, now);
-            return;
-        };
-        let (spheres, followed) = (spheres.clone(), curve.clone());
-        // the lines are off the chord now: it must not be followed, nor the step be read, any longer
-        curve.from = f64::INFINITY;
-        self.rests.remember_chord(&spheres, &followed, now);
-        let bodies = followed.real(model, now - followed.from);
-        for (body, &sphere) in bodies.iter().zip(spheres.iter()) {
-            self.flight.rewrite(sphere, now, body.x, body.v);
-        }
-        self.rests.dirty.push(i);
-    }
-
+impl Mechanics {
     /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
     pub(crate) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
         if self.rests.is_empty() || self.rests.of[i].is_empty() {
@@ -55,11 +30,12 @@ impl<D: Detector> EventDriven<D> {
         }
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
-            let meeting = self.contact_state(model, key, self.now);
-            if meeting.hops_within_rounding(self.pressure(model, key)) || self.instant.has_collapsed(key) {
+            let meeting = self.trajectories.contact_state(model, key);
+            if meeting.hops_within_rounding(self.rests.pressure(model, key)) || self.impacts.instant.has_collapsed(key)
+            {
                 continue;
             }
-            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -1e-12 * self.flight.line(i).v.length() {
+            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -DRIVEN * self.trajectories.line(i).v.length() {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
                 }
@@ -70,28 +46,28 @@ impl<D: Detector> EventDriven<D> {
 
     fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
         if self.rests.drop(key) {
-            let meeting = self.contact_state(model, key, self.now);
-            let row = meeting.row(self.now, Class::Release, 0.0, meeting.v_n);
+            let meeting = self.trajectories.contact_state(model, key);
+            let row = meeting.row(self.trajectories.now, Class::Release, 0.0, meeting.v_n);
             log.contacts.push(row);
             log.event(row);
         }
     }
 
     /// The parabolas of an island end: a foot comes to the end of its part, an arc or its chord is over.
-    pub(crate) fn end_parabola(&mut self, model: &Model, leader: usize) {
-        let now = self.now;
-        let Some(island) = self.rests.island(leader) else { return };
+    pub(crate) fn end_parabola(&mut self, model: &Model, leader: usize) -> Changed {
+        let now = self.trajectories.now;
+        let island = self.rests.island(leader).expect("an end that is due is that of an island");
         let spheres = island.spheres.clone();
         if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
             self.rests.remember_chord(&spheres, &curve, now);
             self.set_chord(&spheres, curve.next(model, now));
-            return self.moved(model, &spheres);
+            return self.changed(spheres);
         }
         for &i in &spheres {
-            self.bring(model, i);
+            self.advance(model, i);
         }
         for &i in &spheres {
-            let path = self.flight.path(i, now);
+            let path = self.trajectories.path(i, now);
             for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
                 let part = part_ahead(&model.faces[key.2], path.x, path.v, path.a, model.radii[i]);
                 if let Some(held) = self.rests.held.get_mut(&key) {
@@ -100,46 +76,45 @@ impl<D: Detector> EventDriven<D> {
             }
         }
         self.rests.dirty.push(leader);
+        Changed::Nothing
     }
 
     /// Sends the spheres along a chord, and gives it to their island.
     fn set_chord(&mut self, spheres: &[usize], curve: Curve) {
         let h = curve.length;
         for ((&i, start), end) in spheres.iter().zip(curve.at(0.0)).zip(curve.at(h)) {
-            self.flight.rewrite(i, self.now, start.x, start.v);
+            self.trajectories.rewrite(i, start.x, start.v);
             if h > 0.0 {
-                self.flight.accelerate(i, (end.x - start.x - start.v * h) * (2.0 / (h * h)));
+                self.trajectories.accelerate(i, (end.x - start.x - start.v * h) * (2.0 / (h * h)));
             }
         }
-        let until = (self.now + h).max(self.now.next_up());
+        let until = (self.trajectories.now + h).max(self.trajectories.now.next_up());
         match self.rests.island_mut(spheres[0]) {
             Some(island) => (island.end, island.curve) = (until, Some(curve)),
             None => {
                 let island = Island { spheres: spheres.to_vec(), end: until, curve: Some(curve) };
-                self.rests.insert_island(island, self.now);
+                self.rests.insert_island(island, self.trajectories.now);
             }
         }
     }
 
-    /// The motion of these spheres has changed: all their plans are made anew.
-    fn moved(&mut self, model: &Model, spheres: &[usize]) {
-        for &i in spheres {
-            self.flight.stamp(i);
+    /// The motion of these spheres has changed: plans of others that name them are stale.
+    fn changed(&mut self, spheres: Vec<usize>) -> Changed {
+        for &i in &spheres {
+            self.trajectories.stamp(i);
         }
-        for &i in spheres {
-            self.predict(model, i);
-        }
+        Changed::Spheres(spheres)
     }
 
     /// No contact is left at this instant: decides what holds, island by island.
-    pub(crate) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<(), Stall> {
+    pub(crate) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<Changed, Stall> {
         let spheres = self.rests.take_dirty();
         for &i in &spheres {
-            self.bring(model, i);
+            self.advance(model, i);
         }
         self.rests.dirty.clear();
         for &i in &spheres {
-            self.rests.remove_island(i, self.now);
+            self.rests.remove_island(i, self.trajectories.now);
         }
         for &i in &spheres {
             self.add_walls_at_point(model, i);
@@ -155,12 +130,11 @@ impl<D: Detector> EventDriven<D> {
         }
         for &i in &spheres {
             if self.rests.of[i].is_empty() {
-                self.flight.accelerate(i, model.acceleration(i));
+                self.trajectories.accelerate(i, model.acceleration(i));
             }
-            self.finite(i)?;
+            self.trajectories.check_range(i)?;
         }
-        self.moved(model, &spheres);
-        Ok(())
+        Ok(self.changed(spheres))
     }
 
     /// Adds the walls that share a resting contact's point with its wall: the tile beyond a seam, the slope beyond a
@@ -170,7 +144,7 @@ impl<D: Detector> EventDriven<D> {
         if !self.rests.of[i].iter().any(|key| key.0 == Kind::Wall) {
             return;
         }
-        let path = self.flight.path(i, self.now);
+        let path = self.trajectories.path(i, self.trajectories.now);
         let r = model.radii[i];
         let shared = |wall: usize, part: Part| touch_part(&model.faces[wall], part, path.x, r);
         let held: Vec<(usize, Touch)> = (self.rests.of[i].iter().filter(|key| key.0 == Kind::Wall))
@@ -190,10 +164,10 @@ impl<D: Detector> EventDriven<D> {
             if at.gap > most || !held.iter().any(near) {
                 continue;
             }
-            let meeting = self.contact_state(model, (Kind::Wall, i, wall), self.now);
+            let meeting = self.trajectories.contact_state(model, (Kind::Wall, i, wall));
             let pull = model.acceleration(i).length();
-            if meeting.v_n.abs() <= ROUNDING * path.v.length() || meeting.hops_within_rounding(pull) {
-                self.rests.add(model, &self.flight, self.now, &meeting, self.now);
+            if meeting.v_n.abs() <= SUM * path.v.length() || meeting.hops_within_rounding(pull) {
+                self.rests.add(model, &self.trajectories, &meeting, RestReason::SharedPoint, self.trajectories.now);
             }
         }
     }
@@ -208,19 +182,20 @@ impl<D: Detector> EventDriven<D> {
     fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
         self.rub_off(model, keys);
         let (spheres, mut bodies, contacts) = self.island_of(model, keys);
-        let settled = solve_island(&mut bodies, &closed(model, &contacts), ZENO * self.clock_ulp());
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), CLOCK_ULPS * self.trajectories.clock_ulp());
         if !settled.converged {
             return Err(self.not_held(keys));
         }
         for (place, &i) in spheres.iter().enumerate() {
-            self.flight.rewrite(i, self.now, bodies[place].x, bodies[place].v);
-            self.flight.accelerate(i, settled.a[place] * self.share_of_pull(keys));
+            self.trajectories.rewrite(i, bodies[place].x, bodies[place].v);
+            self.trajectories.accelerate(i, settled.a[place] * self.share_of_pull(keys));
         }
         self.write_rest_events(model, log, keys, &settled);
-        self.carry(keys, &settled.forces);
+        self.rests.carry(keys, &settled.forces, self.trajectories.now);
         let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
         let opening: Vec<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
-        let (stuck, opening): (Vec<Key>, Vec<Key>) = opening.into_iter().partition(|&key| self.instant.is_stuck(key));
+        let (stuck, opening): (Vec<Key>, Vec<Key>) =
+            opening.into_iter().partition(|&key| self.impacts.instant.is_stuck(key));
         for &key in &opening {
             self.release(model, log, key);
             self.ensure_separating(model, key, 0.0);
@@ -231,16 +206,17 @@ impl<D: Detector> EventDriven<D> {
         }
         let pause = if stuck.is_empty() { f64::INFINITY } else { self.pause(&bodies) };
         for key in stuck {
-            self.rests.hold_until(key, self.now + pause);
+            self.rests.hold_until(key, self.trajectories.now + pause);
         }
         if settled.curved {
             self.set_chord(
                 &spheres,
-                Curve::new(model, bodies, contacts, self.now).cut(pause.min(self.rubbing_time(keys) - self.now)),
+                Curve::new(model, bodies, contacts, self.trajectories.now)
+                    .cut(pause.min(self.rubbing_time(keys) - self.trajectories.now)),
             );
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
-            self.rests.insert_island(Island { spheres, end, curve: None }, self.now);
+            self.rests.insert_island(Island { spheres, end, curve: None }, self.trajectories.now);
         }
         Ok(None)
     }
@@ -248,19 +224,19 @@ impl<D: Detector> EventDriven<D> {
     /// Bounces that were summed up are over: what they have left of the tangential velocity.
     fn rub_off(&mut self, model: &Model, keys: &[Key]) {
         for &key in keys {
-            let due = |held: &&mut RestingContact| held.settles_at <= self.now;
+            let due = |held: &&mut RestingContact| held.settles_at <= self.trajectories.now;
             let Some(rub) = self.rests.held.get_mut(&key).filter(due).and_then(|held| held.rub.take()) else {
                 continue;
             };
-            let (normal, line) = (self.contact_state(model, key, self.now).normal, *self.flight.line(key.1));
-            self.flight.rewrite(key.1, self.now, line.x, rub.end(line.v, normal));
+            let (normal, line) = (self.trajectories.contact_state(model, key).normal, *self.trajectories.line(key.1));
+            self.trajectories.rewrite(key.1, line.x, rub.end(line.v, normal));
         }
     }
 
     /// When the first series of bounces of these contacts that was summed up is over, s.
     fn rubbing_time(&self, keys: &[Key]) -> f64 {
         let held = keys.iter().filter_map(|key| self.rests.held.get(key)).filter(|held| held.rub.is_some());
-        held.map(|held| held.settles_at).filter(|&end| end > self.now).fold(f64::INFINITY, f64::min)
+        held.map(|held| held.settles_at).filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
     }
 
     /// How much of its acceleration moves on a sphere whose only contact is one of bounces that were summed up.
@@ -274,7 +250,7 @@ impl<D: Detector> EventDriven<D> {
     fn pause(&self, bodies: &[Body]) -> f64 {
         let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
         let squared = bodies.iter().map(of).fold(f64::INFINITY, f64::min);
-        (PAUSE * squared.sqrt()).max(ZENO * self.clock_ulp())
+        (PAUSE * squared.sqrt()).max(CLOCK_ULPS * self.trajectories.clock_ulp())
     }
 
     /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
@@ -290,37 +266,26 @@ impl<D: Detector> EventDriven<D> {
             IslandContact { a: place(a), other }
         };
         let contacts = keys.iter().map(contact).collect();
-        let bodies = spheres.iter().map(|&i| self.body(model, i)).collect();
+        let bodies = spheres.iter().map(|&i| Body::of(model, &self.trajectories, i)).collect();
         (spheres, bodies, contacts)
-    }
-
-    /// Sphere `i`, whose line is at the present, as a body of an island.
-    pub(crate) fn body(&self, model: &Model, i: usize) -> Body {
-        Body {
-            x: self.flight.line(i).x,
-            v: self.flight.line(i).v,
-            applied: model.acceleration(i),
-            inverse_mass: model.inverse_masses[i],
-            r: model.radii[i],
-        }
     }
 
     /// Writes a `rest` row for every contact that begins to carry a load, and for every other one whose impulse stopped an
     /// approach, here or further up the pile: without it, a change of velocity would stand nowhere.
     fn write_rest_events(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
-            let mut meeting = self.contact_state(model, key, self.now);
+            let mut meeting = self.trajectories.contact_state(model, key);
             let Some(held) = self.rests.held.get_mut(&key) else { continue };
             let begins = settled.fate[index] == Fate::Loaded && !held.announced;
             // a contact whose bounces are summed up rests when they are over, unless more than a bounce stops it
-            let bounces = !held.announced && held.settles_at > self.now;
+            let bounces = !held.announced && held.settles_at > self.trajectories.now;
             let struck = settled.struck[index] && !(bounces && is_a_bounce(model, &meeting, settled.impulses[index]));
             if !struck && (bounces || !begins) {
                 continue;
             }
             meeting.v_n = if struck { settled.v_n[index] } else { held.v_n };
             held.announced = true;
-            let row = meeting.row(self.now, Class::Rest, settled.impulses[index], 0.0);
+            let row = meeting.row(self.trajectories.now, Class::Rest, settled.impulses[index], 0.0);
             log.contacts.push(row);
             log.event(row);
         }
@@ -331,20 +296,20 @@ impl<D: Detector> EventDriven<D> {
         let mut first = f64::INFINITY;
         for contact in contacts {
             if let Other::Wall(wall, part) = contact.other {
-                let path = self.flight.path(spheres[contact.a], self.now);
+                let path = self.trajectories.path(spheres[contact.a], self.trajectories.now);
                 let r = model.radii[spheres[contact.a]];
                 if let Some(t) = part_end(&model.faces[wall], part, &path, r, first) {
                     first = first.min(t);
                 }
             }
         }
-        self.now + first
+        self.trajectories.now + first
     }
 
     /// When the first of these contacts asks for its island to be settled again, s.
     fn settling_time(&self, keys: &[Key]) -> f64 {
         let ends = keys.iter().filter_map(|key| self.rests.held.get(key)).map(|held| held.settles_at);
-        ends.filter(|&end| end > self.now).fold(f64::INFINITY, f64::min)
+        ends.filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
     }
 
     fn not_held(&self, keys: &[Key]) -> Stall {
@@ -352,9 +317,9 @@ impl<D: Detector> EventDriven<D> {
             "The support forces of {} resting contacts (sphere {} among them) could not be found at t = {} s; start them a little apart, or change the method from here.",
             keys.len(),
             keys[0].1,
-            self.now
+            self.trajectories.now
         );
-        Stall { time: self.now, kind: "resting-contact", reason }
+        Stall { time: self.trajectories.now, kind: "resting-contact", reason }
     }
 }
 
@@ -364,5 +329,5 @@ fn is_a_bounce(model: &Model, meeting: &ContactState, impulse: f64) -> bool {
     let of = |i: usize| (impulse * model.inverse_masses[i], model.acceleration(i).length());
     let ((one, pull), (other, more)) = (of(a), if kind == Kind::Pair { of(b) } else { (0.0, 0.0) });
     let change = one + other;
-    change * change <= 8.0 * (pull + more) * SMALL_HOP * meeting.reach
+    change * change <= 8.0 * (pull + more) * SUMMED_HOP * meeting.reach
 }

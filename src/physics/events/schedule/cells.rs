@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use super::candidates::{Candidates, MOST_NEAR, ROOM};
 use super::simd::Simd;
+use crate::physics::events::record::{CellCoordinates, CellRef, Exit};
 use crate::physics::model::Model;
 use crate::physics::path::Path;
 use crate::roots::quadratic_fall;
@@ -41,35 +42,6 @@ const BORDER: u32 = 1 << 28;
 
 /// In a mark, the bits of the seat spilled last; all of them: nobody.
 const NONE: u32 = BORDER - 1;
-
-/// A cube.
-pub(crate) type CellCoordinates = [i32; 3];
-
-/// Where a sphere is: its cube, and that cube's place in the table.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct CellRef {
-    pub(crate) cube: CellCoordinates,
-    pub(crate) place: u32,
-}
-
-impl CellRef {
-    /// In no cube.
-    pub(crate) const LOOSE: CellRef = CellRef { cube: [0; 3], place: u32::MAX };
-
-    #[inline]
-    pub(crate) fn is_loose(self) -> bool {
-        self.place == u32::MAX
-    }
-}
-
-/// A sphere leaves its cube: the axis, and +1 or −1.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Exit {
-    /// 0, 1 or 2.
-    pub(crate) axis: u8,
-    /// +1 or −1.
-    pub(crate) sign: i8,
-}
 
 /// What one place of the table holds: seats in slots, and a mark that says how many, whether walls are near, and who was
 /// spilled last.

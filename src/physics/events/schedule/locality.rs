@@ -1,41 +1,43 @@
-//! Who sits where: neighbours side by side, so that what an event reads lies together.
+//! Which sphere sits where: neighbours side by side, so that what an event reads lies together.
 
 use super::cells::nearness;
+use super::parts::Schedule;
 use crate::physics::events::detector::Detector;
-use crate::physics::events::engine::EventDriven;
+use crate::physics::events::islands::resting::Rests;
+use crate::physics::events::trajectories::Trajectories;
 
-impl<D: Detector> EventDriven<D> {
-    /// Seats the spheres by their cubes.
-    pub(crate) fn reseat(&mut self) {
-        let flight = &self.flight;
+impl<D: Detector> Schedule<D> {
+    /// Seats the spheres by the coordinates of their cells.
+    pub(super) fn reseat(&mut self, trajectories: &mut Trajectories, rests: &Rests) {
         let key = |seat: usize| {
-            let record = &flight.records[seat];
+            let record = &trajectories.records[seat];
             (nearness(record.spot.cube), record.sphere, seat as u32)
         };
-        let mut order: Vec<_> = (0..flight.records.len()).map(key).collect();
+        let mut order: Vec<_> = (0..trajectories.records.len()).map(key).collect();
         order.sort_unstable();
-        self.seat(&order.into_iter().map(|(.., seat)| seat).collect::<Vec<_>>());
+        let order: Vec<u32> = order.into_iter().map(|(.., seat)| seat).collect();
+        self.reorder(trajectories, rests, &order);
     }
 
-    /// Who sat at `order[s]` now sits at s.
-    fn seat(&mut self, order: &[u32]) {
-        self.flight.reseat(order);
+    /// The sphere at seat `order[s]` comes to seat s.
+    pub(crate) fn reorder(&mut self, trajectories: &mut Trajectories, rests: &Rests, order: &[u32]) {
+        trajectories.reseat(order);
         if let Some(cells) = &mut self.cells {
-            cells.fill(self.flight.records.iter().map(|record| record.spot.place));
+            cells.fill(trajectories.records.iter().map(|record| record.spot.place));
         }
-        self.next = None;
-        self.forget_ties();
+        self.forget();
         for seat in 0..order.len() {
-            self.schedule(seat);
+            self.enter(trajectories, rests, seat);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::physics::exact::Exact;
+    use crate::physics::events::engine::EventDriven;
+    use crate::physics::exact::root_detector::RootDetector;
     use crate::physics::log::Log;
-    use crate::physics::method::{Engine, Progress, Until};
+    use crate::physics::method::{Progress, Until};
     use crate::physics::model::{Method, Model, Scene, Settings};
 
     /// A hundred spheres in a box, with walls that open no way out, crowded enough that most meet.
@@ -48,19 +50,20 @@ mod tests {
     }
 
     #[test]
-    fn where_anybody_sits_changes_no_bit() {
+    fn the_order_of_the_records_changes_no_bit() {
         let model = Model::new(&gas());
         let settings = Settings { method: Method::Exact, dt: 0.01, tolerance: 1e-3 };
         let mut log = Log { recording: true, ..Log::default() };
-        let mut still = Exact::begin(&model, settings, model.initial.clone(), &mut log);
+        let mut still = EventDriven::<RootDetector>::begin(&model, settings, &model.initial, &mut log);
         let (mut moved, mut moved_log) = (still.clone(), log.clone());
         for round in 0..200_u64 {
             assert_eq!(still.advance(&model, &mut log, Until::Time(f64::INFINITY), 50), Progress::Yielded);
             assert_eq!(moved.advance(&model, &mut moved_log, Until::Time(f64::INFINITY), 50), Progress::Yielded);
             // 37 has no factor in common with 100: a permutation, another one each round
-            moved.seat(&(0..100).map(|seat| ((37 * seat + 11 * round) % 100) as u32).collect::<Vec<_>>());
+            let order: Vec<u32> = (0..100).map(|seat| ((37 * seat + 11 * round) % 100) as u32).collect();
+            moved.schedule.reorder(&mut moved.mechanics.trajectories, &moved.mechanics.rests, &order);
         }
-        assert_eq!(moved.state(&model).hash(), still.state(&model).hash());
+        assert_eq!(moved.at(&model, moved.time()).hash(), still.at(&model, still.time()).hash());
         assert_eq!(moved_log.events, log.events);
         assert!(log.tallies.impacts > 1000, "{}", log.tallies.impacts);
     }

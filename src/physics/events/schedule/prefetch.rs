@@ -1,16 +1,17 @@
-//! A look ahead: what the next events will read is asked for while the present one is handled.
+//! Software prefetch of what the next dozen events read; never affects results.
 //!
 //! With many spheres, nearly all time goes into waiting for memory, and an event waits several times in a row: for its
-//! record, then for the places around, then for the lines of who is there. So a list of the next few dozen events is
-//! kept, and each is visited three times before it is due. The list is a guess, since events change what follows: it
-//! decides when memory is read, and nothing else.
+//! record, then for the cells around, then for the trajectories of the spheres there. So a list of the next few dozen
+//! events is kept, and each is visited three times before it is due. The list is a guess, since events change what follows:
+//! it decides when memory is read, and nothing else.
 
 use super::candidates::Candidates;
-use super::cells::{CellRef, Cells, Exit};
+use super::cells::Cells;
+use super::queue::Queue;
+use super::simd::Simd;
 use crate::physics::contact::Kind;
-use crate::physics::events::detector::Detector;
-use crate::physics::events::engine::EventDriven;
-use crate::physics::events::trajectories::Record;
+use crate::physics::events::record::{CellRef, Exit, Record};
+use crate::physics::events::trajectories::Trajectories;
 
 /// Fewer spheres are in a fast cache anyhow.
 const MANY: usize = 20_000;
@@ -23,7 +24,7 @@ const PARTNER: usize = 4;
 /// Events that a list should have.
 const LISTED: usize = 64;
 
-/// What is known about what comes next.
+/// A guess at the next events.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Prefetch {
     /// Time, s, and seat.
@@ -33,11 +34,11 @@ pub(crate) struct Prefetch {
     /// How far it should reach, s.
     span: f64,
     near: Option<Box<Candidates>>,
-    /// Lent to whoever looks into the queue.
+    /// Scratch buffers for looking into the queue.
     blocks: [Vec<u32>; 2],
 }
 
-/// Whether a sphere crosses into another cube before it meets anybody.
+/// Whether a sphere crosses into another cell before it meets anything.
 fn crosses(record: &Record) -> bool {
     record.plan.crossing < record.plan.contact
 }
@@ -52,32 +53,29 @@ fn partner(record: &Record) -> Option<usize> {
     (!crosses(record) && record.plan.kind == Kind::Pair).then_some(record.plan.other as usize)
 }
 
-impl<D: Detector> EventDriven<D> {
-    /// Called at every event.
+impl Prefetch {
+    /// Whether so many spheres outgrow a fast cache.
     #[inline]
-    pub(crate) fn scout(&mut self) {
-        if self.flight.records.len() >= MANY && self.cells.is_some() {
-            self.look_ahead();
-        }
+    pub(crate) fn pays(spheres: usize) -> bool {
+        spheres >= MANY
     }
 
-    fn look_ahead(&mut self) {
-        self.scout.at += 1;
-        if self.scout.at + PLACES >= self.scout.list.len().max(2 * PLACES) {
-            self.list_events();
+    /// One event more is handled: asks for what those that follow will read.
+    pub(crate) fn look_ahead(&mut self, trajectories: &Trajectories, queue: &Queue, cells: &Cells, simd: Simd) {
+        self.at += 1;
+        if self.at + PLACES >= self.list.len().max(2 * PLACES) {
+            self.list_events(trajectories, queue, simd);
         }
-        let EventDriven { cells: Some(cells), flight, scout: Prefetch { list, at, near, .. }, lanes, .. } = self else {
-            return;
-        };
-        let records = &flight.records[..];
+        let Prefetch { list, at, near, .. } = self;
+        let records = &trajectories.records[..];
         let near = near.get_or_insert_with(|| Box::new(Candidates::empty()));
         let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
         if let Some(record) = due(PLACES) {
-            cells.fetch_around(next_spot(cells, record), *lanes);
+            cells.fetch_around(next_spot(cells, record), simd);
             if let Some(other) = partner(record) {
-                lanes.fetch(&records[other].line);
-                lanes.fetch(&records[other].plan);
-                self.queue.fetch(other);
+                simd.fetch(&records[other].line);
+                simd.fetch(&records[other].plan);
+                queue.fetch(other);
             }
         }
         let mut lines = |spot: CellRef, way| {
@@ -88,12 +86,12 @@ impl<D: Detector> EventDriven<D> {
                 None => cells.around(spot, near),
                 Some(way) => cells.ahead(spot, way, near),
             }
-            near.seats().iter().for_each(|&seat| lanes.fetch(&records[seat as usize].line));
+            near.seats().iter().for_each(|&seat| simd.fetch(&records[seat as usize].line));
         };
         if let Some(record) = due(LINES) {
             lines(next_spot(cells, record), crosses(record).then_some(record.plan.way));
             if let Some(other) = partner(record) {
-                cells.fetch_around(records[other].spot, *lanes);
+                cells.fetch_around(records[other].spot, simd);
             }
         }
         if let Some(record) = due(PARTNER)
@@ -110,20 +108,21 @@ impl<D: Detector> EventDriven<D> {
         }
     }
 
-    fn list_events(&mut self) {
-        let EventDriven { scout: Prefetch { list, at, span, blocks, .. }, .. } = self;
+    fn list_events(&mut self, trajectories: &Trajectories, queue: &Queue, simd: Simd) {
+        let Prefetch { list, at, span, blocks, .. } = self;
+        let now = trajectories.now;
         list.clear();
         *at = 0;
-        self.queue.until(self.now + *span, 4 * LISTED, list, blocks);
+        queue.until(now + *span, 4 * LISTED, list, blocks);
         list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         if list.len() < LISTED {
-            *span = 1.25 * *span + f64::EPSILON * self.now.abs() + f64::MIN_POSITIVE;
+            *span = 1.25 * *span + f64::EPSILON * now.abs() + f64::MIN_POSITIVE;
         } else if list.len() > 2 * LISTED {
             *span *= 0.7;
         }
         for &(_, seat) in list.iter() {
-            self.lanes.fetch(&self.flight.records[seat as usize].line);
-            self.lanes.fetch(&self.flight.records[seat as usize].plan);
+            simd.fetch(&trajectories.records[seat as usize].line);
+            simd.fetch(&trajectories.records[seat as usize].plan);
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::physics::events::trajectories::Record;
+use crate::physics::events::record::Record;
 use crate::physics::path::Path;
 
 #[cfg(target_arch = "x86_64")]
@@ -234,7 +234,7 @@ mod wide {
     use pulp::x86::V3;
 
     use super::{BATCHES, Earliest, Eight, Judge, PairBatch, Query, Tournament, earliest};
-    use crate::physics::events::trajectories::{Record, Trajectory};
+    use crate::physics::events::record::{Record, Trajectory};
 
     /// Looks at pairs of spheres that an acceleration bends or not.
     pub(crate) struct Look<'a, const BENT: bool> {

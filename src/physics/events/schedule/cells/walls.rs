@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{CellCoordinates, Cells, OUTERMOST, SLOTS, WALLS};
+use super::{Cells, OUTERMOST, SLOTS, WALLS};
+use crate::physics::events::record::CellCoordinates;
 use crate::physics::model::Model;
 use crate::physics::wall::Face;
 
