@@ -110,7 +110,7 @@ impl Mechanics {
             // the whole series is over before anything moves
             return;
         }
-        let line = *self.trajectories.line(a);
+        let line = *self.trajectories.trajectory(a);
         self.trajectories.rewrite(a, line.x, mean);
         let rub = Rub { keeps: ending.keeps, expected: mean + change, slip: ending.slip, share };
         let until = self.trajectories.now + ending.after;

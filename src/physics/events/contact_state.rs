@@ -85,14 +85,16 @@ impl Trajectories {
         let (kind, a, b) = key;
         match kind {
             Kind::Wall => self.wall_state(model, key),
-            Kind::Pair => pair_state(key, [self.line(a), self.line(b)], [a, b].map(|i| self.path(i, self.now))),
+            Kind::Pair => {
+                pair_state(key, [self.trajectory(a), self.trajectory(b)], [a, b].map(|i| self.path(i, self.now)))
+            }
         }
     }
 
     fn wall_state(&self, model: &Model, key: Key) -> ContactState {
         let (_, a, b) = key;
         let path = self.path(a, self.now);
-        let (face, r) = (&model.faces[b], self.line(a).r);
+        let (face, r) = (&model.faces[b], self.trajectory(a).r);
         let at = touch(face, path.x, r);
         let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
         // only what may rest asks on which side of a border it will be
@@ -107,9 +109,9 @@ impl Trajectories {
     pub(crate) fn contact_geometry(&self, model: &Model, key: Key, time: f64) -> ContactState {
         let (kind, a, b) = key;
         if kind == Kind::Pair {
-            return pair_state(key, [self.line(a), self.line(b)], [a, b].map(|i| self.path(i, time)));
+            return pair_state(key, [self.trajectory(a), self.trajectory(b)], [a, b].map(|i| self.path(i, time)));
         }
-        let reach = self.line(a).r;
+        let reach = self.trajectory(a).r;
         let at = touch(&model.faces[b], self.path(a, time).x, reach);
         ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
     }
@@ -120,7 +122,7 @@ impl Trajectories {
         if kind == Kind::Wall {
             return self.contact_state(model, key).v_n;
         }
-        let (one, two) = (self.line(a), self.line(b));
+        let (one, two) = (self.trajectory(a), self.trajectory(b));
         pair_normal_velocity(one.x - two.x, one.v - two.v)
     }
 }

@@ -11,7 +11,7 @@ pub(crate) struct Due {
     /// Seconds from now.
     pub(crate) after: f64,
     /// Whether they touch then; else they certainly do not before, and it is time to look again.
-    pub(crate) sure: bool,
+    pub(crate) is_contact: bool,
 }
 
 /// Which stretch of time is of interest.

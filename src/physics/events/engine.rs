@@ -222,30 +222,30 @@ impl<D: Detector> EventDriven<D> {
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
         let EventDriven { schedule, mechanics, .. } = self;
         let Mechanics { trajectories, rests, impacts } = mechanics;
-        let (time, seat) = schedule.take_next(trajectories, rests);
-        let (kind, now) = (event_kind(trajectories, rests, time, seat), trajectories.now);
+        let (time, slot) = schedule.take_next(trajectories, rests);
+        let (kind, now) = (event_kind(trajectories, rests, time, slot), trajectories.now);
         if rests.is_dirty() && (time > now || kind != EventKind::Contact) {
             let changed = mechanics.settle(model, log)?;
             self.predict(model, &changed);
             return Ok(Turn::Event);
         }
         if !log.contacts.is_empty() && time > now && now > self.frame.time {
-            schedule.put_back((time, seat));
+            schedule.put_back((time, slot));
             return Ok(self.close_frame(model, log, now));
         }
         if time > self.frame.end {
-            schedule.put_back((time, seat));
+            schedule.put_back((time, slot));
             return Ok(self.close_frame(model, log, self.frame.end));
         }
         impacts.instant.advance_clock(trajectories, time)?;
         schedule.prefetch(trajectories);
         match kind {
-            EventKind::Contact => self.contact(model, log, seat)?,
+            EventKind::Contact => self.contact(model, log, slot)?,
             EventKind::IslandEnd => {
-                let changed = mechanics.end_parabola(model, mechanics.trajectories.sphere(seat));
+                let changed = mechanics.end_parabola(model, mechanics.trajectories.sphere(slot));
                 self.predict(model, &changed);
             }
-            EventKind::Crossing => schedule.cross(model, trajectories, rests, seat),
+            EventKind::Crossing => schedule.cross(model, trajectories, rests, slot),
         }
         let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = self;
         if schedule.is_worn() {
@@ -254,31 +254,32 @@ impl<D: Detector> EventDriven<D> {
         Ok(Turn::Event)
     }
 
-    /// The contact that the sphere at a seat planned is due.
+    /// The contact that the sphere at a slot planned is due.
     #[inline]
-    fn contact(&mut self, model: &Model, log: &mut Log, seat: usize) -> Result<(), Stall> {
+    fn contact(&mut self, model: &Model, log: &mut Log, slot: usize) -> Result<(), Stall> {
         let EventDriven { schedule, mechanics, .. } = self;
         let Mechanics { trajectories, rests, .. } = mechanics;
-        let plan = trajectories.records[seat].plan;
-        let stale = plan.kind == Kind::Pair && trajectories.records[plan.other as usize].stamp != plan.stamp;
-        let rested = !rests.is_empty() && rests.holds(trajectories.key(seat, &plan));
-        if !plan.sure || stale || rested {
-            schedule.predict_due(model, trajectories, rests, seat);
+        let plan = trajectories.records[slot].plan;
+        let stale =
+            plan.kind == Kind::Pair && trajectories.records[plan.other as usize].motion_version != plan.motion_version;
+        let rested = !rests.is_empty() && rests.holds(trajectories.key(slot, &plan));
+        if !plan.is_contact || stale || rested {
+            schedule.predict_due(model, trajectories, rests, slot);
             return Ok(());
         }
-        if mechanics.collide_plain_pair(model, log, seat, &plan)? {
+        if mechanics.collide_plain_pair(model, log, slot, &plan)? {
             let Mechanics { trajectories, rests, .. } = mechanics;
             schedule.predict(model, trajectories, rests, plan.other as usize);
-            schedule.predict_due(model, trajectories, rests, seat);
+            schedule.predict_due(model, trajectories, rests, slot);
             return Ok(());
         }
-        let key = mechanics.trajectories.key(seat, &plan);
+        let key = mechanics.trajectories.key(slot, &plan);
         let changed = mechanics.meet(model, log, key)?;
         self.predict(model, &changed);
         // whatever became of the contact, this plan is used up
-        if !changed.spheres().contains(&self.mechanics.trajectories.sphere(seat)) {
+        if !changed.spheres().contains(&self.mechanics.trajectories.sphere(slot)) {
             let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
-            self.schedule.predict_due(model, trajectories, rests, seat);
+            self.schedule.predict_due(model, trajectories, rests, slot);
         }
         Ok(())
     }
@@ -287,7 +288,7 @@ impl<D: Detector> EventDriven<D> {
     fn predict(&mut self, model: &Model, changed: &Changed) {
         let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
         for &i in changed.spheres() {
-            self.schedule.predict(model, trajectories, rests, trajectories.seat(i));
+            self.schedule.predict(model, trajectories, rests, trajectories.slot(i));
         }
     }
 }

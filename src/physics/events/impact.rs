@@ -28,8 +28,8 @@ pub(super) fn note(log: &mut Log, row: Contact) {
 impl Mechanics {
     /// Two bodies touch while they approach, or are pressed together: an impact, or a rest that may begin.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
-        let before = *self.trajectories.line(key.1);
-        let since = if key.0 == Kind::Pair { before.t.max(self.trajectories.line(key.2).t) } else { before.t };
+        let before = *self.trajectories.trajectory(key.1);
+        let since = if key.0 == Kind::Pair { before.t.max(self.trajectories.trajectory(key.2).t) } else { before.t };
         let mut contact = self.advanced_contact(model, key);
         self.trajectories.restore_bounce_speed(model, &before, &mut contact);
         if self.is_squeezed(model, &contact) {
@@ -63,13 +63,13 @@ impl Mechanics {
         let change = target - contact.v_n;
         let impulse = match kind {
             Kind::Wall => {
-                let v = trajectories.line(a).v;
+                let v = trajectories.trajectory(a).v;
                 let slip = (v - contact.normal * contact.v_n) * (model.law.tangential - 1.0);
                 trajectories.push(a, along(contact.normal, change) + slip);
                 change * model.masses[a]
             }
             Kind::Pair => {
-                let (one, two) = (*trajectories.line(a), *trajectories.line(b));
+                let (one, two) = (*trajectories.trajectory(a), *trajectories.trajectory(b));
                 let (arm, w) = (one.x - two.x, one.v - two.v);
                 let (share_a, share_b) = (trajectories.inverse_mass(a), trajectories.inverse_mass(b));
                 let share = share_a + share_b;
@@ -99,7 +99,7 @@ impl Mechanics {
         let changed = if kind == Kind::Pair { Changed::Pair([a, b]) } else { Changed::Sphere(a) };
         for &i in changed.spheres() {
             self.trajectories.check_range(i)?;
-            self.trajectories.stamp(i);
+            self.trajectories.mark_changed(i);
             self.disturb(model, log, i);
         }
         Ok(changed)

@@ -44,16 +44,16 @@ impl Mechanics {
         let mut candidates = Candidates::empty();
         let records = &self.trajectories.records;
         for record in records {
-            let (i, line, spot) = (record.sphere as usize, &record.line, record.spot);
-            found.extend(match cells.filter(|_| !spot.is_loose()) {
+            let (i, line, cell) = (record.sphere as usize, &record.trajectory, record.cell);
+            found.extend(match cells.filter(|_| !cell.is_loose()) {
                 Some(cells) => {
-                    let walls = cells.walls_near(spot).iter().map(|&wall| wall as usize);
+                    let walls = cells.walls_near(cell).iter().map(|&wall| wall as usize);
                     walls_touched(model, &self.trajectories, record, walls)
                 }
                 None => walls_touched(model, &self.trajectories, record, 0..model.faces.len()),
             });
-            let mut pair = |seat: usize| {
-                let (j, other) = (records[seat].sphere as usize, &records[seat].line);
+            let mut pair = |slot: usize| {
+                let (j, other) = (records[slot].sphere as usize, &records[slot].trajectory);
                 let slack = touching(line.r + other.r, line.x.abs().max(other.x.abs()).max_element());
                 if i < j && (line.x - other.x).length() - (line.r + other.r) <= slack {
                     found.push((Kind::Pair, i, j));
@@ -62,8 +62,8 @@ impl Mechanics {
             match cells {
                 None => (i + 1..records.len()).for_each(&mut pair),
                 Some(cells) => {
-                    cells.look(spot, None, &mut candidates, records.len());
-                    candidates.seats().iter().for_each(|&seat| pair(seat as usize));
+                    cells.look(cell, None, &mut candidates, records.len());
+                    candidates.slots().iter().for_each(|&slot| pair(slot as usize));
                 }
             }
         }

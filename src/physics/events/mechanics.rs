@@ -49,7 +49,7 @@ impl Mechanics {
         let (kind, a, b) = key;
         let yields = kind == Kind::Pair && rests.count(b) < rests.count(a);
         let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
-        let mut nudge = f64::EPSILON * trajectories.line(i).v.length().max(f64::MIN_POSITIVE);
+        let mut nudge = f64::EPSILON * trajectories.trajectory(i).v.length().max(f64::MIN_POSITIVE);
         for _ in 0..64 {
             let v_n = trajectories.v_n(model, key);
             if v_n >= least || v_n.is_nan() {

@@ -15,7 +15,7 @@ use crate::physics::state::Stall;
 
 /// Two spheres that touch now, the one of the lower index first.
 struct PlainPair {
-    seats: [usize; 2],
+    slots: [usize; 2],
     /// At the present.
     lines: [Trajectory; 2],
     /// When the motion of either last changed, s.
@@ -24,18 +24,18 @@ struct PlainPair {
 }
 
 impl PlainPair {
-    /// The pair that the sphere at a seat planned to meet, as
+    /// The pair that the sphere at a slot planned to meet, as
     /// [`Trajectories::contact_state`] sees it; none if what
     /// accelerates them differs.
     #[inline(always)]
-    fn new(trajectories: &Trajectories, seat: usize, plan: &Plan) -> Option<PlainPair> {
+    fn new(trajectories: &Trajectories, slot: usize, plan: &Plan) -> Option<PlainPair> {
         let now = trajectories.now;
         let (a, other) = (trajectories.common()?, plan.other as usize);
-        let swap = usize::from(trajectories.sphere(seat) > trajectories.sphere(other));
-        let seats = [[seat, other][swap], [other, seat][swap]];
-        let [one, two] = [&trajectories.records[seats[0]], &trajectories.records[seats[1]]];
-        let since = one.line.t.max(two.line.t);
-        let lines = [one.line.advanced_to(a, now), two.line.advanced_to(a, now)];
+        let swap = usize::from(trajectories.sphere(slot) > trajectories.sphere(other));
+        let slots = [[slot, other][swap], [other, slot][swap]];
+        let [one, two] = [&trajectories.records[slots[0]], &trajectories.records[slots[1]]];
+        let since = one.trajectory.t.max(two.trajectory.t);
+        let lines = [one.trajectory.advanced_to(a, now), two.trajectory.advanced_to(a, now)];
         let key = (Kind::Pair, one.sphere as usize, two.sphere as usize);
         let [one, two] = [lines[0].path(a, now), lines[1].path(a, now)];
         let (x, reach) = (one.x - two.x, lines[0].r + lines[1].r);
@@ -52,26 +52,26 @@ impl PlainPair {
             a_n: 0.0,
             flat: false,
         };
-        Some(PlainPair { seats, lines, since, contact })
+        Some(PlainPair { slots, lines, since, contact })
     }
 }
 
 impl Mechanics {
-    /// Lets the impact law act on the pair that the sphere at a seat planned to meet, if it is as plain as that; says
+    /// Lets the impact law act on the pair that the sphere at a slot planned to meet, if it is as plain as that; says
     /// whether it was, and both spheres have got new velocities.
     #[inline]
     pub(super) fn collide_plain_pair(
         &mut self,
         model: &Model,
         log: &mut Log,
-        seat: usize,
+        slot: usize,
         plan: &Plan,
     ) -> Result<bool, Stall> {
         if plan.kind != Kind::Pair || !self.rests.is_empty() {
             return Ok(false);
         }
         let now = self.trajectories.now;
-        let Some(pair) = PlainPair::new(&self.trajectories, seat, plan) else { return Ok(false) };
+        let Some(pair) = PlainPair::new(&self.trajectories, slot, plan) else { return Ok(false) };
         if !self.is_plain(model, &pair) {
             return Ok(false);
         }
@@ -79,8 +79,8 @@ impl Mechanics {
         let share = self.exchange(model, &pair);
         let impulse = (target - pair.contact.v_n) / share;
         note(log, pair.contact.row(now, Class::Collide, impulse, target));
-        for seat in pair.seats {
-            self.trajectories.check_range_at(seat)?;
+        for slot in pair.slots {
+            self.trajectories.check_range_at(slot)?;
         }
         Ok(true)
     }
@@ -99,14 +99,14 @@ impl Mechanics {
     /// Both get their impulse; returns 1/m₁ + 1/m₂, 1/kg.
     #[inline(always)]
     fn exchange(&mut self, model: &Model, pair: &PlainPair) -> f64 {
-        let (seats, [one, two]) = (pair.seats, pair.lines);
-        let [share_a, share_b] = seats.map(|seat| self.trajectories.records[seat].inverse_mass);
+        let (slots, [one, two]) = (pair.slots, pair.lines);
+        let [share_a, share_b] = slots.map(|slot| self.trajectories.records[slot].inverse_mass);
         let (arm, w, share) = (one.x - two.x, one.v - two.v, share_a + share_b);
         let push = pair_push(arm, w, share, model.law.restitution);
         let (one, two) =
             (Trajectory { v: one.v + push * share_a, ..one }, Trajectory { v: two.v + push * -share_b, ..two });
-        self.trajectories.redirect(seats[0], one);
-        self.trajectories.redirect(seats[1], two);
+        self.trajectories.redirect(slots[0], one);
+        self.trajectories.redirect(slots[1], two);
         if pair_normal_velocity(arm, one.v - two.v) < 0.0 {
             self.ensure_separating(model, pair.contact.key, 0.0);
         }

@@ -42,13 +42,13 @@ impl Trajectory {
 #[repr(C, align(128))]
 pub(crate) struct Record {
     /// Its current parabola.
-    pub(crate) line: Trajectory,
+    pub(crate) trajectory: Trajectory,
     /// Its next event; written by the schedule alone.
     pub(crate) plan: Plan,
     /// The cell it is in, if there are cells; written by the schedule alone.
-    pub(crate) spot: CellRef,
+    pub(crate) cell: CellRef,
     /// How often its motion has changed.
-    pub(crate) stamp: u32,
+    pub(crate) motion_version: u32,
     /// Its index in the scene.
     pub(crate) sphere: u32,
     /// 1 / m, 1/kg.
@@ -63,16 +63,16 @@ pub(crate) struct Plan {
     pub(crate) contact: f64,
     /// When it leaves its cell, s; infinite if never.
     pub(crate) crossing: f64,
-    /// The wall's index, or the other sphere's seat.
+    /// The wall's index, or the other sphere's slot.
     pub(crate) other: u32,
     /// How often the other sphere's motion had changed by then: if it has since, the plan is stale.
-    pub(crate) stamp: u32,
+    pub(crate) motion_version: u32,
     /// Wall or pair.
     pub(crate) kind: Kind,
     /// Whether they touch then; else it is time to look again.
-    pub(crate) sure: bool,
+    pub(crate) is_contact: bool,
     /// Through which side of its cell it leaves.
-    pub(crate) way: Exit,
+    pub(crate) exit: Exit,
 }
 
 impl Plan {
@@ -81,10 +81,10 @@ impl Plan {
         contact: f64::INFINITY,
         crossing: f64::INFINITY,
         other: 0,
-        stamp: 0,
+        motion_version: 0,
         kind: Kind::Wall,
-        sure: true,
-        way: Exit { axis: 0, sign: 1 },
+        is_contact: true,
+        exit: Exit { axis: 0, sign: 1 },
     };
 }
 
@@ -95,19 +95,19 @@ pub(crate) type CellCoordinates = [i32; 3];
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct CellRef {
     /// Which cube of space.
-    pub(crate) cube: CellCoordinates,
+    pub(crate) coordinates: CellCoordinates,
     /// Which entry of the table, into which space is folded.
-    pub(crate) place: u32,
+    pub(crate) index: u32,
 }
 
 impl CellRef {
     /// In no cell.
-    pub(crate) const LOOSE: CellRef = CellRef { cube: [0; 3], place: u32::MAX };
+    pub(crate) const LOOSE: CellRef = CellRef { coordinates: [0; 3], index: u32::MAX };
 
     /// Whether it is in no cell.
     #[inline]
     pub(crate) fn is_loose(self) -> bool {
-        self.place == u32::MAX
+        self.index == u32::MAX
     }
 }
 

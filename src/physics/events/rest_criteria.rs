@@ -100,7 +100,7 @@ impl Mechanics {
     /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end. Not
     /// where nothing at all is lost.
     fn bounces_undamped(&self, model: &Model, (kind, a, b): Key) -> bool {
-        let (law, line) = (&model.law, self.trajectories.line(a));
+        let (law, line) = (&model.law, self.trajectories.trajectory(a));
         let beside = |wall: usize| touch(&model.faces[wall], line.x, line.r).gap <= SUMMED_HOP * line.r;
         kind == Kind::Wall
             && law.wall_restitution == 1.0

@@ -27,7 +27,7 @@ impl Mechanics {
         if kind == Kind::Pair || events < DOUBTFUL || !events.is_power_of_two() {
             return false;
         }
-        let record = &self.trajectories.records[self.trajectories.seat(i)];
+        let record = &self.trajectories.records[self.trajectories.slot(i)];
         let keys = walls_touched(model, &self.trajectories, record, 0..model.faces.len());
         let squeezing = squeezing(model, &self.trajectories, &keys);
         if !squeezing.contains(&contact.key) {
@@ -51,7 +51,7 @@ pub(super) fn walls_touched(
     record: &Record,
     walls: impl Iterator<Item = usize>,
 ) -> Vec<Key> {
-    let (r, i) = (record.line.r, record.sphere as usize);
+    let (r, i) = (record.trajectory.r, record.sphere as usize);
     let x = trajectories.path(i, trajectories.now).x;
     let slack = touching(r, x.abs().max_element());
     let touched = walls.filter(|&wall| touch(&model.faces[wall], x, r).gap <= slack);
@@ -66,7 +66,7 @@ pub(super) fn squeezing(model: &Model, trajectories: &Trajectories, keys: &[Key]
     }
     let normal = |key: &Key| {
         let path = trajectories.path(key.1, trajectories.now);
-        touch(&model.faces[key.2], path.x, trajectories.line(key.1).r).normal
+        touch(&model.faces[key.2], path.x, trajectories.trajectory(key.1).r).normal
     };
     let rows: Vec<Row> = keys.iter().map(|key| Row { a: 0, b: None, normal: normal(key), offset: 0.0 }).collect();
     let stays = |row: &Row| {

@@ -5,9 +5,9 @@
 //! until the next one, so that a state within the frame can be read.
 //!
 //! What an event needs of a sphere is one record of two cache lines. Records may lie in another order than the scene's,
-//! neighbours in space side by side: sphere i has the seat s. Results depend on sphere indices only; seats fix the order
+//! neighbours in space side by side: sphere i has the slot s. Results depend on sphere indices only; slots fix the order
 //! in which neighbours are visited, which may change a last bit where a search stops at the best time so far (`swept`,
-//! and pairs with different accelerations). Seats follow from the run alone, so that its bits do too.
+//! and pairs with different accelerations). Slots follow from the run alone, so that its bits do too.
 
 use glam::DVec3;
 
@@ -36,12 +36,12 @@ struct Past {
 pub(crate) struct Trajectories {
     /// Time of the last event, s.
     pub(crate) now: f64,
-    /// By seat.
+    /// By slot.
     pub(crate) records: Vec<Record>,
     /// The time scale of the start, s: what the clock is taken for at its zero.
     time_scale: f64,
-    /// The seat of each sphere; empty as long as each sits at its index.
-    seats: Vec<u32>,
+    /// The slot of each sphere; empty as long as each is at its index.
+    slots: Vec<u32>,
     /// What accelerates every sphere alike, m/s², as long as `accelerations` is empty.
     common: DVec3,
     /// Acceleration by sphere, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
@@ -64,10 +64,10 @@ impl Trajectories {
     /// Of spheres at `state`, the clock at its time.
     pub(crate) fn new(model: &Model, state: &State) -> Trajectories {
         let record = |i: usize| Record {
-            line: Trajectory { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
+            trajectory: Trajectory { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
             plan: Plan::IDLE,
-            spot: CellRef::default(),
-            stamp: 0,
+            cell: CellRef::default(),
+            motion_version: 0,
             sphere: i as u32,
             inverse_mass: model.inverse_masses[i],
         };
@@ -80,7 +80,7 @@ impl Trajectories {
             now: state.t,
             records: (0..model.len()).map(record).collect(),
             time_scale: time_scale(model, state),
-            seats: Vec::new(),
+            slots: Vec::new(),
             common,
             accelerations,
             past: Vec::new(),
@@ -98,53 +98,53 @@ impl Trajectories {
         t.next_up() - t
     }
 
-    /// The seat of sphere `i`.
+    /// The slot of sphere `i`.
     #[inline]
-    pub(crate) fn seat(&self, i: usize) -> usize {
-        if self.seats.is_empty() { i } else { self.seats[i] as usize }
+    pub(crate) fn slot(&self, i: usize) -> usize {
+        if self.slots.is_empty() { i } else { self.slots[i] as usize }
     }
 
-    /// The sphere at a seat.
+    /// The sphere at a slot.
     #[inline]
-    pub(crate) fn sphere(&self, seat: usize) -> usize {
-        self.records[seat].sphere as usize
+    pub(crate) fn sphere(&self, slot: usize) -> usize {
+        self.records[slot].sphere as usize
     }
 
     /// The trajectory of sphere `i`.
     #[inline]
-    pub(crate) fn line(&self, i: usize) -> &Trajectory {
-        &self.records[self.seat(i)].line
+    pub(crate) fn trajectory(&self, i: usize) -> &Trajectory {
+        &self.records[self.slot(i)].trajectory
     }
 
     /// 1 / m of sphere `i`, 1/kg.
     #[inline]
     pub(crate) fn inverse_mass(&self, i: usize) -> f64 {
-        self.records[self.seat(i)].inverse_mass
+        self.records[self.slot(i)].inverse_mass
     }
 
     /// The motion of sphere `i` has changed: what others planned with it is stale.
     #[inline]
-    pub(crate) fn stamp(&mut self, i: usize) {
-        let seat = self.seat(i);
-        let stamp = &mut self.records[seat].stamp;
-        *stamp = stamp.wrapping_add(1);
+    pub(crate) fn mark_changed(&mut self, i: usize) {
+        let slot = self.slot(i);
+        let version = &mut self.records[slot].motion_version;
+        *version = version.wrapping_add(1);
     }
 
-    /// Reorders the records: the one at seat `order[s]` comes to seat s.
-    pub(crate) fn reseat(&mut self, order: &[u32]) {
-        self.records = order.iter().map(|&seat| self.records[seat as usize]).collect();
+    /// Reorders the records: the one at slot `order[s]` comes to slot s.
+    pub(crate) fn reorder(&mut self, order: &[u32]) {
+        self.records = order.iter().map(|&slot| self.records[slot as usize]).collect();
         let mut now = vec![0; order.len()];
-        for (seat, &before) in order.iter().enumerate() {
-            now[before as usize] = seat as u32;
+        for (slot, &before) in order.iter().enumerate() {
+            now[before as usize] = slot as u32;
         }
         for record in &mut self.records {
             if record.plan.kind == Kind::Pair {
                 record.plan.other = now[record.plan.other as usize];
             }
         }
-        self.seats = vec![0; order.len()];
-        for (seat, record) in self.records.iter().enumerate() {
-            self.seats[record.sphere as usize] = seat as u32;
+        self.slots = vec![0; order.len()];
+        for (slot, record) in self.records.iter().enumerate() {
+            self.slots[record.sphere as usize] = slot as u32;
         }
     }
 
@@ -163,15 +163,15 @@ impl Trajectories {
     /// The path of sphere `i` from time `t` (s) on.
     #[inline]
     pub(crate) fn path(&self, i: usize, t: f64) -> Path {
-        let record = &self.records[self.seat(i)];
-        record.line.path(self.acceleration(i), t)
+        let record = &self.records[self.slot(i)];
+        record.trajectory.path(self.acceleration(i), t)
     }
 
-    /// The path of the sphere at a seat from now on.
+    /// The path of the sphere at a slot from now on.
     #[inline]
-    pub(crate) fn path_from(&self, seat: usize) -> Path {
-        let record = &self.records[seat];
-        record.line.path(self.acceleration(record.sphere as usize), self.now)
+    pub(crate) fn path_from(&self, slot: usize) -> Path {
+        let record = &self.records[slot];
+        record.trajectory.path(self.acceleration(record.sphere as usize), self.now)
     }
 
     /// Rewrites the trajectory of sphere `i`: from now on it starts at `x` (m) with `v` (m/s).
@@ -179,8 +179,8 @@ impl Trajectories {
     pub(crate) fn rewrite(&mut self, i: usize, x: DVec3, v: DVec3) {
         let t = self.now;
         self.keep(i, t);
-        let seat = self.seat(i);
-        let line = &mut self.records[seat].line;
+        let slot = self.slot(i);
+        let line = &mut self.records[slot].trajectory;
         *line = Trajectory { x, v, t, r: line.r };
     }
 
@@ -188,29 +188,30 @@ impl Trajectories {
     #[inline]
     pub(crate) fn advance(&mut self, i: usize) {
         let t = self.now;
-        let (seat, acceleration) = (self.seat(i), self.acceleration(i));
-        let line = &mut self.records[seat].line;
+        let (slot, acceleration) = (self.slot(i), self.acceleration(i));
+        let line = &mut self.records[slot].trajectory;
         if line.t != t {
             self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
             *line = line.advanced_to(acceleration, t);
         }
     }
 
-    /// From now on the sphere at a seat, which shares what accelerates all, is on another trajectory: what others planned
+    /// From now on the sphere at a slot, which shares what accelerates all, is on another trajectory: what others planned
     /// with it is stale.
     #[inline]
-    pub(crate) fn redirect(&mut self, seat: usize, line: Trajectory) {
-        let record = &mut self.records[seat];
-        if record.line.t != line.t {
-            let past = Past { sphere: record.sphere, until: line.t, line: record.line, acceleration: self.common };
+    pub(crate) fn redirect(&mut self, slot: usize, line: Trajectory) {
+        let record = &mut self.records[slot];
+        if record.trajectory.t != line.t {
+            let past =
+                Past { sphere: record.sphere, until: line.t, line: record.trajectory, acceleration: self.common };
             self.past.push(past);
         }
-        (record.line, record.stamp) = (line, record.stamp.wrapping_add(1));
+        (record.trajectory, record.motion_version) = (line, record.motion_version.wrapping_add(1));
     }
 
     /// Changes the velocity of sphere `i`, whose trajectory is at the present, by `change`, m/s.
     pub(crate) fn push(&mut self, i: usize, change: DVec3) {
-        let line = *self.line(i);
+        let line = *self.trajectory(i);
         self.rewrite(i, line.x, line.v + change);
     }
 
@@ -219,7 +220,7 @@ impl Trajectories {
         if a == self.acceleration(i) {
             return;
         }
-        self.keep(i, self.line(i).t);
+        self.keep(i, self.trajectory(i).t);
         self.accelerations.resize(self.records.len(), self.common);
         self.accelerations[i] = a;
     }
@@ -250,17 +251,17 @@ impl Trajectories {
     /// Remembers the trajectory that sphere `i` was on until `until`, s.
     fn keep(&mut self, i: usize, until: f64) {
         // a trajectory replaced at its own time was never in force
-        let line = *self.line(i);
+        let line = *self.trajectory(i);
         if line.t == until {
             return;
         }
         self.past.push(Past { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
     }
 
-    /// Which contact a plan of the sphere at a seat means.
+    /// Which contact a plan of the sphere at a slot means.
     #[inline]
-    pub(crate) fn key(&self, seat: usize, plan: &Plan) -> Key {
-        let i = self.sphere(seat);
+    pub(crate) fn key(&self, slot: usize, plan: &Plan) -> Key {
+        let i = self.sphere(slot);
         match plan.kind {
             Kind::Wall => (Kind::Wall, i, plan.other as usize),
             Kind::Pair => {
@@ -272,20 +273,20 @@ impl Trajectories {
 
     /// The speeds of the bodies of a contact in all, m/s.
     pub(crate) fn speeds(&self, (kind, a, b): Key) -> f64 {
-        let other = if kind == Kind::Pair { self.line(b).v.length() } else { 0.0 };
-        self.line(a).v.length() + other
+        let other = if kind == Kind::Pair { self.trajectory(b).v.length() } else { 0.0 };
+        self.trajectory(a).v.length() + other
     }
 
     /// Says so if what has just happened sends sphere `i` out of the range of numbers.
     pub(crate) fn check_range(&self, i: usize) -> Result<(), Stall> {
-        self.check_range_at(self.seat(i))
+        self.check_range_at(self.slot(i))
     }
 
-    /// Says so if what has just happened sends the sphere at a seat out of the range of numbers.
+    /// Says so if what has just happened sends the sphere at a slot out of the range of numbers.
     #[inline]
-    pub(crate) fn check_range_at(&self, seat: usize) -> Result<(), Stall> {
-        let line = &self.records[seat].line;
+    pub(crate) fn check_range_at(&self, slot: usize) -> Result<(), Stall> {
+        let line = &self.records[slot].trajectory;
         let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
-        runaway(self.sphere(seat), self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
+        runaway(self.sphere(slot), self.now, [line.x, line.v], cause).map_or(Ok(()), Err)
     }
 }

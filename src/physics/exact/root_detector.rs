@@ -25,12 +25,12 @@ impl Detector for RootDetector {
 
     #[inline]
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
-        sphere_wall(path, r, face, span.before).map(|after| Due { after, sure: true })
+        sphere_wall(path, r, face, span.before).map(|after| Due { after, is_contact: true })
     }
 
     #[inline]
     fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
-        sphere_sphere(&a.relative_to(b), reach, span.before).map(|after| Due { after, sure: true })
+        sphere_sphere(&a.relative_to(b), reach, span.before).map(|after| Due { after, is_contact: true })
     }
 
     #[inline]

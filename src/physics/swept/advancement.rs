@@ -102,7 +102,7 @@ impl ConservativeAdvancement {
         for _ in 0..PATIENCE {
             self.count();
             if seen.gap <= 0.0 && closes(bodies, s, seen) {
-                return Some(Due { after: s, sure: true });
+                return Some(Due { after: s, is_contact: true });
             }
             let wide = seen.gap > 2.0 * near;
             let step = if wide { wide_step(seen, near) } else { self.close_step(bodies, seen) }?;
@@ -114,18 +114,18 @@ impl ConservativeAdvancement {
             seen = bodies.at(s);
             if wide && seen.gap <= near && span.now + s > span.now {
                 self.count();
-                return Some(Due { after: s, sure: false });
+                return Some(Due { after: s, is_contact: false });
             }
             if !wide {
                 if seen.gap <= 2.0 * near {
                     self.note(bodies, span.now + s, seen);
                 }
                 if seen.gap < -self.tolerance * bodies.reach() && last < s && closes(bodies, s, seen) {
-                    return Some(Due { after: self.halve(bodies, span.now, [last, s]), sure: true });
+                    return Some(Due { after: self.halve(bodies, span.now, [last, s]), is_contact: true });
                 }
             }
         }
-        Some(Due { after: s, sure: false })
+        Some(Due { after: s, is_contact: false })
     }
 
     /// How far to go from a narrow gap, or from an overlap that opens; none if nothing will come of it.

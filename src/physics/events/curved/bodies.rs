@@ -25,7 +25,7 @@ pub(crate) struct Body {
 impl Body {
     /// Sphere `i`, whose trajectory is at the present, as a body of an island.
     pub(crate) fn of(model: &Model, trajectories: &Trajectories, i: usize) -> Body {
-        let line = trajectories.line(i);
+        let line = trajectories.trajectory(i);
         Body {
             x: line.x,
             v: line.v,

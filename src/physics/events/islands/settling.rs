@@ -35,7 +35,8 @@ impl Mechanics {
             {
                 continue;
             }
-            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -DRIVEN * self.trajectories.line(i).v.length() {
+            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -DRIVEN * self.trajectories.trajectory(i).v.length()
+            {
                 if key.0 == Kind::Pair {
                     self.rests.dirty.extend([key.1, key.2]);
                 }
@@ -101,7 +102,7 @@ impl Mechanics {
     /// The motion of these spheres has changed: plans of others that name them are stale.
     fn changed(&mut self, spheres: Vec<usize>) -> Changed {
         for &i in &spheres {
-            self.trajectories.stamp(i);
+            self.trajectories.mark_changed(i);
         }
         Changed::Spheres(spheres)
     }
@@ -228,7 +229,8 @@ impl Mechanics {
             let Some(rub) = self.rests.held.get_mut(&key).filter(due).and_then(|held| held.rub.take()) else {
                 continue;
             };
-            let (normal, line) = (self.trajectories.contact_state(model, key).normal, *self.trajectories.line(key.1));
+            let (normal, line) =
+                (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(key.1));
             self.trajectories.rewrite(key.1, line.x, rub.end(line.v, normal));
         }
     }

@@ -1,53 +1,56 @@
-//! Who is near a sphere.
+//! The spheres near another one.
 
 use super::simd::{BATCHES, PairBatch};
 
-/// What the 27 places around a sphere hold without spilling is fewer than this.
-pub(crate) const MOST_NEAR: usize = 128;
+/// What the 27 cells around a sphere hold without overflow is fewer than this.
+pub(crate) const MOST_CANDIDATES: usize = 128;
 
-/// Room for it, one more place and padding to four.
-pub(crate) const ROOM: usize = MOST_NEAR + 8;
+/// Room for that, one more cell and padding to four.
+pub(crate) const ROOM: usize = MOST_CANDIDATES + 8;
 
-/// Seats of the spheres that a sphere may meet, its own among them, and what was found out about each.
+/// Slots of the spheres that a sphere may meet, its own among them, and what was found out about each.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidates {
-    pub(crate) seats: Vec<u32>,
+    /// At least [`ROOM`] long.
+    pub(crate) slots: Vec<u32>,
+    /// How many of `slots` count.
     pub(crate) count: usize,
-    /// Room to look at them four by four.
-    pub(crate) fours: Box<[PairBatch; BATCHES]>,
+    /// Room to look at them four at a time.
+    pub(crate) batches: Box<[PairBatch; BATCHES]>,
 }
 
 impl Candidates {
-    /// Nobody.
+    /// None.
     pub(crate) fn empty() -> Candidates {
-        Candidates { seats: vec![0; ROOM], count: 0, fours: Box::new([PairBatch::NEVER; BATCHES]) }
+        Candidates { slots: vec![0; ROOM], count: 0, batches: Box::new([PairBatch::NEVER; BATCHES]) }
     }
 
-    /// Who is near.
+    /// Their slots.
     #[inline]
-    pub(crate) fn seats(&self) -> &[u32] {
-        &self.seats[..self.count]
+    pub(crate) fn slots(&self) -> &[u32] {
+        &self.slots[..self.count]
     }
 
-    /// The same made up to fours by `seat`, and the room to look at them.
+    /// Their slots, made up to a multiple of four by `slot`, and the room to look at them.
     #[inline]
-    pub(crate) fn padded(&mut self, seat: usize) -> (&[u32], &mut [PairBatch; BATCHES]) {
-        self.seats[self.count..self.count + 4].fill(seat as u32);
-        (&self.seats[..self.count.next_multiple_of(4)], &mut self.fours)
+    pub(crate) fn padded(&mut self, slot: usize) -> (&[u32], &mut [PairBatch; BATCHES]) {
+        self.slots[self.count..self.count + 4].fill(slot as u32);
+        (&self.slots[..self.count.next_multiple_of(4)], &mut self.batches)
     }
 
-    /// All of so many seats.
-    pub(crate) fn all(&mut self, seats: usize) {
-        self.seats.resize(self.seats.len().max(seats + 5), 0);
-        (0_u32..).zip(&mut self.seats[..seats]).for_each(|(seat, place)| *place = seat);
-        self.count = seats;
+    /// Lists all of so many slots.
+    pub(crate) fn all(&mut self, slots: usize) {
+        self.slots.resize(self.slots.len().max(slots + 5), 0);
+        (0_u32..).zip(&mut self.slots[..slots]).for_each(|(slot, entry)| *entry = slot);
+        self.count = slots;
     }
 
-    pub(crate) fn push(&mut self, seat: u32) {
-        self.seats[self.count] = seat;
+    /// Lists one slot more.
+    pub(crate) fn push(&mut self, slot: u32) {
+        self.slots[self.count] = slot;
         self.count += 1;
-        if self.count + 5 > self.seats.len() {
-            self.seats.resize(2 * self.seats.len(), 0);
+        if self.count + 5 > self.slots.len() {
+            self.slots.resize(2 * self.slots.len(), 0);
         }
     }
 }

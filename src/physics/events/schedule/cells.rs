@@ -1,23 +1,22 @@
-//! Cells for many spheres: who may meet whom, and which walls are near.
+//! Cells for many spheres: which of them may meet, and which walls are near.
 //!
-//! Space is cut into cubes at least as wide as the widest pair's reach; cube (i, j, k) is kept in a table folded modulo
-//! its size, so that no bounds are needed and a spreading cloud costs no memory. Cubes that share a place cost a
-//! prediction each, never an event. A sphere that crosses into the next cube is an event; it then meets nine new cubes.
+//! Space is cut into cubes at least as wide as the widest pair's reach; cube (i, j, k) is kept in a cell of a table folded
+//! modulo its size, so that no bounds are needed and a spreading cloud costs no memory. Cubes that share a cell cost a
+//! prediction each, never an event. A sphere that crosses into the next cube is an event; nine cubes are new to it then.
 //!
-//! A place is sixteen bytes with its spheres' seats in them, and those of a row of cubes lie side by side, so that what is
-//! around a sphere is nine rows of three at fixed distances, but at the table's border. Whoever looks around copies them
-//! all without asking how many there are, since a branch that is mispredicted costs more than the copy.
+//! A cell is sixteen bytes with its spheres' slots in them, and those of a row of cubes lie side by side, so that what is
+//! around a sphere is nine rows of three at fixed distances, but at the table's border. A search copies all words of a cell
+//! and advances by its count: cheaper than a mispredicted branch.
 
 use glam::DVec3;
 
-use super::candidates::{Candidates, MOST_NEAR, ROOM};
+use super::candidates::{Candidates, MOST_CANDIDATES, ROOM};
 use super::simd::Simd;
 use crate::physics::events::record::{CellCoordinates, CellRef, Exit};
 use crate::physics::model::Model;
 use crate::physics::path::Path;
 use crate::roots::quadratic_fall;
-
-pub(crate) use super::cells::layout::Layout;
+use layout::Layout;
 
 pub(crate) mod layout;
 mod walls;
@@ -25,69 +24,72 @@ mod walls;
 /// Cubes are not counted beyond this: the outermost reach to infinity, where coordinates could not tell them apart.
 const OUTERMOST: i32 = 1 << 28;
 
-/// Spheres that a place holds before it spills.
-const SLOTS: usize = 3;
+/// Spheres that a cell holds before it overflows.
+const ENTRIES: usize = 3;
 
-/// Copied at once from a place: its slots and its mark.
-const PLACE: usize = SLOTS + 1;
+/// Words that are copied at once from a cell: its entries and its header.
+const WORDS: usize = ENTRIES + 1;
 
-/// In a mark: where the number of spheres in slots begins.
+/// In a header: where the number of spheres in entries begins.
 const COUNT: u32 = 30;
 
-/// In a mark: walls are near.
+/// In a header: walls are near.
 const WALLS: u32 = 1 << 29;
 
-/// In a mark: the place is at the border of the table, where what is around it is elsewhere.
+/// In a header: the cell is at the border of the table, where what is around it is elsewhere.
 const BORDER: u32 = 1 << 28;
 
-/// In a mark, the bits of the seat spilled last; all of them: nobody.
+/// In a header, the bits of the slot that overflowed last; all of them: none.
 const NONE: u32 = BORDER - 1;
 
-/// What one place of the table holds: seats in slots, and a mark that says how many, whether walls are near, and who was
-/// spilled last.
+/// What one cell of the table holds: slots in entries, and a header that says how many, whether walls are near, and which
+/// slot overflowed last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(16))]
-struct Place([u32; PLACE]);
+struct Cell([u32; WORDS]);
 
-impl Place {
-    const EMPTY: Place = Place([0, 0, 0, NONE]);
+impl Cell {
+    const EMPTY: Cell = Cell([0, 0, 0, NONE]);
 
     fn count(&self) -> usize {
-        (self.0[SLOTS] >> COUNT) as usize
+        (self.0[ENTRIES] >> COUNT) as usize
     }
 
-    fn spilled(&self) -> u32 {
-        self.0[SLOTS] & NONE
+    /// The slot that overflowed last; [`NONE`] if none has.
+    fn overflow(&self) -> u32 {
+        self.0[ENTRIES] & NONE
     }
 
-    fn spill(&mut self, seat: u32) {
-        self.0[SLOTS] = self.0[SLOTS] & !NONE | seat;
+    fn push_overflow(&mut self, slot: u32) {
+        self.0[ENTRIES] = self.0[ENTRIES] & !NONE | slot;
     }
 
     fn empty(&mut self) {
-        *self = Place([0, 0, 0, self.0[SLOTS] & (WALLS | BORDER) | NONE]);
+        *self = Cell([0, 0, 0, self.0[ENTRIES] & (WALLS | BORDER) | NONE]);
     }
 }
 
 /// The table of cubes.
 #[derive(Debug, Clone)]
 pub(crate) struct Cells {
+    /// Corner of cube (0, 0, 0), m.
     origin: DVec3,
+    /// Edge of a cube, m.
     edge: f64,
     /// The table's size along each axis.
     size: [i32; 3],
-    /// From one place to the next along each axis.
+    /// From one cell to the next along each axis.
     strides: [u32; 3],
     /// The largest radius of a sphere in the table, m.
     widest: f64,
-    places: Vec<Place>,
-    /// The seat spilled before this one into the same place; empty as long as none is.
+    table: Vec<Cell>,
+    /// By slot: the one that overflowed before it in the same cell; empty as long as none has.
     next: Vec<u32>,
-    /// How many are spilled.
-    spilled: usize,
-    /// Seats of the spheres that are in no cube: all look at them.
+    /// How many have overflowed.
+    overflow: usize,
+    /// Slots of the spheres that are in no cube: all look at them.
     loose: Vec<u32>,
-    /// Walls near the cubes of place p: `walls[starts[p]..starts[p + 1]]`, ascending.
+    /// Walls near the cubes of cell c: `walls[starts[c]..starts[c + 1]]`, ascending.
     starts: Vec<u32>,
     walls: Vec<u32>,
 }
@@ -102,14 +104,14 @@ impl Cells {
             size,
             widest,
             strides: [1, size[0] as u32, size[0] as u32 * size[1] as u32],
-            places: vec![Place::EMPTY; size.iter().map(|&n| n as usize).product()],
+            table: vec![Cell::EMPTY; size.iter().map(|&n| n as usize).product()],
             next: Vec::new(),
-            spilled: 0,
+            overflow: 0,
             loose: Vec::new(),
             starts: Vec::new(),
             walls: Vec::new(),
         };
-        cells.mark_borders();
+        cells.note_borders();
         cells.register(model);
         cells
     }
@@ -119,67 +121,67 @@ impl Cells {
         Layout { origin: self.origin, edge: self.edge, size: self.size, widest: self.widest }
     }
 
-    fn mark_borders(&mut self) {
+    fn note_borders(&mut self) {
         let [x, y, z] = self.size.map(|n| n as usize);
         let end = |k: usize, n: usize| k == 0 || k + 1 == n;
-        for (number, place) in self.places.iter_mut().enumerate() {
-            if end(number % x, x) || end(number / x % y, y) || end(number / x / y, z) {
-                place.0[SLOTS] |= BORDER;
+        for (index, cell) in self.table.iter_mut().enumerate() {
+            if end(index % x, x) || end(index / x % y, y) || end(index / x / y, z) {
+                cell.0[ENTRIES] |= BORDER;
             }
         }
     }
 
-    /// Fills the table with spheres in these places, seat by seat, and with no others.
-    pub(crate) fn fill(&mut self, places: impl ExactSizeIterator<Item = u32>) {
-        self.places.iter_mut().for_each(Place::empty);
+    /// Fills the table with spheres in these cells, slot by slot, and with no others.
+    pub(crate) fn fill(&mut self, cells: impl ExactSizeIterator<Item = u32>) {
+        self.table.iter_mut().for_each(Cell::empty);
         self.loose.clear();
-        self.spilled = 0;
+        self.overflow = 0;
         if !self.next.is_empty() {
-            self.next = vec![NONE; places.len()];
+            self.next = vec![NONE; cells.len()];
         }
-        let seats = places.len();
-        for (seat, place) in places.enumerate() {
-            self.enter(seat, place, seats);
-        }
-    }
-
-    /// Enters a seat, one of so many, in a place or among the loose ones.
-    pub(crate) fn enter(&mut self, seat: usize, place: u32, seats: usize) {
-        match (CellRef { place, ..CellRef::default() }).is_loose() {
-            true => self.loose.push(seat as u32),
-            false => self.link(seat, place, seats),
+        let slots = cells.len();
+        for (slot, cell) in cells.enumerate() {
+            self.enter(slot, cell, slots);
         }
     }
 
-    /// Takes a seat from where it was entered.
-    pub(crate) fn leave(&mut self, seat: usize, place: u32) {
-        match (CellRef { place, ..CellRef::default() }).is_loose() {
-            true => self.loose.retain(|&other| other as usize != seat),
-            false => self.unlink(seat as u32, place),
+    /// Enters a slot, one of so many, in the cell of this index or among the loose ones.
+    pub(crate) fn enter(&mut self, slot: usize, cell: u32, slots: usize) {
+        match (CellRef { index: cell, ..CellRef::default() }).is_loose() {
+            true => self.loose.push(slot as u32),
+            false => self.link(slot, cell, slots),
         }
     }
 
-    /// Seats of the spheres that one in a cube may meet: those around it and those in no cube; after it went `way` only
-    /// those that came within reach, since the ones in no cube have been looked at before. A sphere that is itself in no
-    /// cube may meet all.
+    /// Takes a slot from where it was entered.
+    pub(crate) fn leave(&mut self, slot: usize, cell: u32) {
+        match (CellRef { index: cell, ..CellRef::default() }).is_loose() {
+            true => self.loose.retain(|&other| other as usize != slot),
+            false => self.unlink(slot as u32, cell),
+        }
+    }
+
+    /// Lists the spheres that one in a cell may meet: those around it and those in no cell; after it came through the side
+    /// `exit` only those that came within reach, since the ones in no cell have been looked at before. A sphere that is
+    /// itself in no cell may meet all.
     #[inline(always)]
-    pub(crate) fn look(&self, spot: CellRef, way: Option<Exit>, near: &mut Candidates, seats: usize) {
-        match way {
-            _ if spot.is_loose() => near.all(seats),
-            Some(way) => self.ahead(spot, way, near),
+    pub(crate) fn look(&self, cell: CellRef, exit: Option<Exit>, candidates: &mut Candidates, slots: usize) {
+        match exit {
+            _ if cell.is_loose() => candidates.all(slots),
+            Some(exit) => self.ahead(cell, exit, candidates),
             None => {
-                self.around(spot, near);
-                self.loose.iter().for_each(|&seat| near.push(seat));
+                self.around(cell, candidates);
+                self.loose.iter().for_each(|&slot| candidates.push(slot));
             }
         }
     }
 
-    /// Whether so many share places that looking around costs more than it should.
-    pub(crate) fn is_crowded(&self, seats: usize) -> bool {
-        8 * self.spilled > seats
+    /// Whether so many share cells that looking around costs more than it should.
+    pub(crate) fn is_crowded(&self, slots: usize) -> bool {
+        8 * self.overflow > slots
     }
 
-    /// The largest radius of a sphere in a cube, m.
+    /// The largest radius of a sphere in a cell, m.
     pub(crate) fn widest(&self) -> f64 {
         self.widest
     }
@@ -189,113 +191,114 @@ impl Cells {
         self.edge
     }
 
-    /// Walls near a cube, ascending.
+    /// Walls near a cell, ascending.
     #[inline]
-    pub(crate) fn walls_near(&self, spot: CellRef) -> &[u32] {
-        let place = spot.place as usize;
-        if self.places[place].0[SLOTS] & WALLS == 0 {
+    pub(crate) fn walls_near(&self, cell: CellRef) -> &[u32] {
+        let index = cell.index as usize;
+        if self.table[index].0[ENTRIES] & WALLS == 0 {
             return &[];
         }
-        &self.walls[self.starts[place] as usize..self.starts[place + 1] as usize]
+        &self.walls[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
 
-    /// The spheres in the 27 cubes around a cube.
+    /// Lists the spheres in the 27 cubes around a cell.
     #[inline]
-    pub(crate) fn around(&self, spot: CellRef, near: &mut Candidates) {
-        if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
-            return self.around_border(spot.cube, near);
+    pub(crate) fn around(&self, cell: CellRef, candidates: &mut Candidates) {
+        if self.table[cell.index as usize].0[ENTRIES] & BORDER != 0 {
+            return self.around_border(cell.coordinates, candidates);
         }
         let [_, y, z] = self.strides;
-        // the first place of the first row
-        let first = spot.place - (1 + y + z);
-        self.gather([0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first + y + z)).as_flattened(), near, 3);
+        // the first cell of the first row
+        let first = cell.index - (1 + y + z);
+        self.gather([0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first + y + z)).as_flattened(), candidates, 3);
     }
 
-    /// The spheres in the nine cubes that came within reach when a sphere went `way` into this cube.
+    /// Lists the spheres in the nine cubes that came within reach when a sphere went through `exit` into this cell.
     #[inline]
-    pub(crate) fn ahead(&self, spot: CellRef, way: Exit, near: &mut Candidates) {
-        if self.places[spot.place as usize].0[SLOTS] & BORDER != 0 {
-            return self.ahead_border(spot.cube, way, near);
+    pub(crate) fn ahead(&self, cell: CellRef, exit: Exit, candidates: &mut Candidates) {
+        if self.table[cell.index as usize].0[ENTRIES] & BORDER != 0 {
+            return self.ahead_border(cell.coordinates, exit, candidates);
         }
-        let axis = way.axis as usize % 3;
+        let axis = exit.axis as usize % 3;
         let (one, two) = (self.strides[(axis + 1) % 3], self.strides[(axis + 2) % 3]);
-        let front = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
+        let front = cell.index.wrapping_add_signed(self.strides[axis] as i32 * i32::from(exit.sign));
         let first = front - (one + two);
         self.gather(
             [0, two, 2 * two].map(|two| [0, one, 2 * one].map(|one| first + one + two)).as_flattened(),
-            near,
+            candidates,
             1,
         );
     }
 
-    /// The same at the border of the table.
+    /// [`Cells::around`] a cell at the border of the table.
     #[cold]
     #[inline(never)]
-    fn around_border(&self, [x, y, z]: CellCoordinates, near: &mut Candidates) {
-        let places =
-            [-1, 0, 1].map(|dz| [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| self.place([x + dx, y + dy, z + dz]))));
-        self.gather(places.as_flattened().as_flattened(), near, 1);
+    fn around_border(&self, [x, y, z]: CellCoordinates, candidates: &mut Candidates) {
+        let cells =
+            [-1, 0, 1].map(|dz| [-1, 0, 1].map(|dy| [-1, 0, 1].map(|dx| self.index_of([x + dx, y + dy, z + dz]))));
+        self.gather(cells.as_flattened().as_flattened(), candidates, 1);
     }
 
+    /// [`Cells::ahead`] into a cell at the border of the table.
     #[cold]
     #[inline(never)]
-    fn ahead_border(&self, cube: CellCoordinates, way: Exit, near: &mut Candidates) {
-        let axis = way.axis as usize;
+    fn ahead_border(&self, cube: CellCoordinates, exit: Exit, candidates: &mut Candidates) {
+        let axis = exit.axis as usize;
         let at = |one: i32, two: i32| {
             let mut cube = cube;
-            cube[axis] += i32::from(way.sign);
+            cube[axis] += i32::from(exit.sign);
             cube[(axis + 1) % 3] += one;
             cube[(axis + 2) % 3] += two;
-            self.place(cube)
+            self.index_of(cube)
         };
-        self.gather([-1, 0, 1].map(|two| [-1, 0, 1].map(|one| at(one, two))).as_flattened(), near, 1);
+        self.gather([-1, 0, 1].map(|two| [-1, 0, 1].map(|one| at(one, two))).as_flattened(), candidates, 1);
     }
 
-    /// Copies the seats in rows of some places each, by the number of the first.
+    /// Copies the slots in rows of `width` cells each, given by the index of the first.
     #[inline(always)]
-    fn gather(&self, rows: &[u32], near: &mut Candidates, width: usize) {
-        let (mut count, mut marks) = (0, NONE);
-        let Some(seats) = near.seats.first_chunk_mut::<ROOM>() else { return };
+    fn gather(&self, rows: &[u32], candidates: &mut Candidates, width: usize) {
+        let (mut count, mut headers) = (0, NONE);
+        let slots = candidates.slots.first_chunk_mut::<ROOM>().expect("candidate lists begin with that room");
         for &row in rows {
-            for Place(slots) in &self.places[row as usize..row as usize + width] {
+            for Cell(entries) in &self.table[row as usize..row as usize + width] {
                 // the remainder says no more than that there is room
-                let free = count % MOST_NEAR;
-                seats[free..free + PLACE].copy_from_slice(slots);
-                count += (slots[SLOTS] >> COUNT) as usize;
-                marks &= slots[SLOTS];
+                let free = count % MOST_CANDIDATES;
+                slots[free..free + WORDS].copy_from_slice(entries);
+                count += (entries[ENTRIES] >> COUNT) as usize;
+                headers &= entries[ENTRIES];
             }
         }
-        near.count = count;
-        if marks & NONE != NONE {
-            self.gather_spilled(rows, near, width);
+        candidates.count = count;
+        if headers & NONE != NONE {
+            self.gather_overflow(rows, candidates, width);
         }
     }
 
     #[cold]
-    fn gather_spilled(&self, rows: &[u32], near: &mut Candidates, width: usize) {
-        for place in rows.iter().flat_map(|&row| &self.places[row as usize..row as usize + width]) {
-            let mut seat = place.spilled();
-            while seat != NONE {
-                near.push(seat);
-                seat = self.next[seat as usize];
+    fn gather_overflow(&self, rows: &[u32], candidates: &mut Candidates, width: usize) {
+        for cell in rows.iter().flat_map(|&row| &self.table[row as usize..row as usize + width]) {
+            let mut slot = cell.overflow();
+            while slot != NONE {
+                candidates.push(slot);
+                slot = self.next[slot as usize];
             }
         }
     }
 
-    /// Asks for the places around a cube: they will be read soon.
+    /// Asks for the memory of the cells around one: it will be read soon.
     #[inline]
-    pub(crate) fn fetch_around(&self, spot: CellRef, lanes: Simd) {
+    pub(crate) fn fetch_around(&self, cell: CellRef, simd: Simd) {
         let [_, y, z] = self.strides;
-        let first = spot.place.wrapping_sub(1 + y + z);
+        let first = cell.index.wrapping_sub(1 + y + z);
         for row in [0, z, 2 * z].map(|z| [0, y, 2 * y].map(|y| first.wrapping_add(y + z))).as_flattened() {
-            if let Some([first, _, last]) = self.places.get(*row as usize..).and_then(<[Place]>::first_chunk) {
-                lanes.fetch(first);
-                lanes.fetch(last);
+            if let Some([first, _, last]) = self.table.get(*row as usize..).and_then(<[Cell]>::first_chunk) {
+                simd.fetch(first);
+                simd.fetch(last);
             }
         }
     }
 
-    /// When a sphere on `path` leaves its cube, s from now, and where to.
+    /// When a sphere on `path` leaves its cube (s from now; infinite if never), and through which side.
     #[inline]
     pub(crate) fn crossing(&self, cube: CellCoordinates, path: &Path) -> (f64, Exit) {
         if path.a == DVec3::ZERO && cube.iter().all(|index| index.abs() < OUTERMOST) {
@@ -319,7 +322,7 @@ impl Cells {
         first
     }
 
-    /// The same without acceleration and branches: which way a sphere goes cannot be predicted.
+    /// [`Cells::crossing`] without acceleration, and without branches: the side cannot be predicted by the processor.
     #[inline(always)]
     fn straight_crossing(&self, cube: CellCoordinates, path: &Path) -> (f64, Exit) {
         let exit = |axis: usize| {
@@ -343,92 +346,93 @@ impl Cells {
         path.x[axis] - (self.origin[axis] + f64::from(cube[axis]) * self.edge)
     }
 
-    /// The sphere at a seat goes `way` from its cube: by the index, since a recomputed position may disagree with the
-    /// event. Returns where it is then.
-    pub(crate) fn cross(&mut self, seat: usize, spot: CellRef, way: Exit, seats: usize) -> CellRef {
-        let next = self.beyond(spot, way);
-        self.unlink(seat as u32, spot.place);
-        self.link(seat, next.place, seats);
+    /// The sphere at a slot leaves its cell through `exit`: by the index, since a recomputed position may disagree with the
+    /// event. Returns the cell it is in then.
+    pub(crate) fn cross(&mut self, slot: usize, cell: CellRef, exit: Exit, slots: usize) -> CellRef {
+        let next = self.beyond(cell, exit);
+        self.unlink(slot as u32, cell.index);
+        self.link(slot, next.index, slots);
         next
     }
 
-    /// The cube that a sphere comes to when it goes `way`.
+    /// The cell that a sphere comes to when it goes through `exit`.
     #[inline]
-    pub(crate) fn beyond(&self, spot: CellRef, way: Exit) -> CellRef {
-        let (axis, mut cube) = (way.axis as usize % 3, spot.cube);
-        cube[axis] += i32::from(way.sign);
-        let border = self.places[spot.place as usize].0[SLOTS] & BORDER != 0;
-        let beside = spot.place.wrapping_add_signed(self.strides[axis] as i32 * i32::from(way.sign));
-        CellRef { cube, place: if border { self.place(cube) } else { beside } }
+    pub(crate) fn beyond(&self, cell: CellRef, exit: Exit) -> CellRef {
+        let (axis, mut cube) = (exit.axis as usize % 3, cell.coordinates);
+        cube[axis] += i32::from(exit.sign);
+        let border = self.table[cell.index as usize].0[ENTRIES] & BORDER != 0;
+        let beside = cell.index.wrapping_add_signed(self.strides[axis] as i32 * i32::from(exit.sign));
+        CellRef { coordinates: cube, index: if border { self.index_of(cube) } else { beside } }
     }
 
-    /// Enters a seat, one of so many.
-    fn link(&mut self, seat: usize, place: u32, seats: usize) {
-        let place = &mut self.places[place as usize];
-        let count = place.count();
-        if count < SLOTS {
-            place.0[count] = seat as u32;
-            place.0[SLOTS] += 1 << COUNT;
+    /// Enters a slot, one of so many, in the cell of this index.
+    fn link(&mut self, slot: usize, index: u32, slots: usize) {
+        let cell = &mut self.table[index as usize];
+        let count = cell.count();
+        if count < ENTRIES {
+            cell.0[count] = slot as u32;
+            cell.0[ENTRIES] += 1 << COUNT;
             return;
         }
         if self.next.is_empty() {
-            self.next = vec![NONE; seats];
+            self.next = vec![NONE; slots];
         }
-        self.next[seat] = place.spilled();
-        place.spill(seat as u32);
-        self.spilled += 1;
+        self.next[slot] = cell.overflow();
+        cell.push_overflow(slot as u32);
+        self.overflow += 1;
     }
 
-    fn unlink(&mut self, seat: u32, number: u32) {
-        let place = &mut self.places[number as usize];
+    /// Takes a slot from the cell of this index.
+    fn unlink(&mut self, slot: u32, index: u32) {
+        let cell = &mut self.table[index as usize];
         // what is left beyond the count is looked at too, but never found first
-        let not = |slot: usize| usize::from(place.0[slot] != seat);
-        let slot = not(0) * (1 + not(1) * (1 + not(2)));
-        if slot == SLOTS {
-            self.unspill(number as usize, seat);
+        let not = |entry: usize| usize::from(cell.0[entry] != slot);
+        let entry = not(0) * (1 + not(1) * (1 + not(2)));
+        if entry == ENTRIES {
+            self.take_overflow(index as usize, slot);
             return;
         }
-        let (count, spilled) = (place.count(), place.spilled());
-        if spilled == NONE {
-            place.0[slot] = place.0[count - 1];
-            place.0[SLOTS] -= 1 << COUNT;
+        let (count, overflow) = (cell.count(), cell.overflow());
+        if overflow == NONE {
+            cell.0[entry] = cell.0[count - 1];
+            cell.0[ENTRIES] -= 1 << COUNT;
         } else {
-            place.0[slot] = spilled;
-            place.spill(self.next[spilled as usize]);
-            self.spilled -= 1;
+            cell.0[entry] = overflow;
+            cell.push_overflow(self.next[overflow as usize]);
+            self.overflow -= 1;
         }
     }
 
-    /// Takes a seat that found no slot off its chain.
-    fn unspill(&mut self, number: usize, seat: u32) {
-        self.spilled -= 1;
-        let after = self.next[seat as usize];
-        let place = &mut self.places[number];
-        if place.spilled() == seat {
-            place.spill(after);
+    /// Takes a slot that found no entry off its chain.
+    fn take_overflow(&mut self, index: usize, slot: u32) {
+        self.overflow -= 1;
+        let after = self.next[slot as usize];
+        let cell = &mut self.table[index];
+        if cell.overflow() == slot {
+            cell.push_overflow(after);
             return;
         }
-        let mut at = place.spilled();
-        while self.next[at as usize] != seat {
+        let mut at = cell.overflow();
+        while self.next[at as usize] != slot {
             at = self.next[at as usize];
         }
         self.next[at as usize] = after;
     }
 
-    /// The number of a cube's place. The cubes that the spheres begin in and those around them are off the border.
-    fn place(&self, cube: CellCoordinates) -> u32 {
+    /// The index of the cell that keeps a cube. The cubes that the spheres begin in and those around them are off the border.
+    fn index_of(&self, cube: CellCoordinates) -> u32 {
         let share = |axis: usize| (cube[axis] + 2).rem_euclid(self.size[axis]) as u32 * self.strides[axis];
         share(0) + share(1) + share(2)
     }
 
-    /// Where a point (m) is.
-    pub(crate) fn spot(&self, x: DVec3) -> CellRef {
-        let cube = self.cube_of(x);
-        CellRef { cube, place: self.place(cube) }
+    /// The cell that keeps the cube of a point, m.
+    pub(crate) fn cell_of(&self, x: DVec3) -> CellRef {
+        let cube = self.coordinates_of(x);
+        CellRef { coordinates: cube, index: self.index_of(cube) }
     }
 
     /// The cube that holds a point (m).
-    fn cube_of(&self, x: DVec3) -> CellCoordinates {
+    fn coordinates_of(&self, x: DVec3) -> CellCoordinates {
         let index = |axis: usize| ((x[axis] - self.origin[axis]) / self.edge).floor();
         // a float beyond i32 becomes its end, and the clamp brings it in
         [0, 1, 2].map(|axis| (index(axis) as i32).clamp(-OUTERMOST, OUTERMOST))

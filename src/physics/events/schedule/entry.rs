@@ -18,14 +18,14 @@ pub(crate) enum EventKind {
     Crossing,
 }
 
-/// What the entry of a seat at `time` (s) stands for.
+/// What the entry of a slot at `time` (s) stands for.
 #[inline]
-pub(crate) fn event_kind(trajectories: &Trajectories, rests: &Rests, time: f64, seat: usize) -> EventKind {
+pub(crate) fn event_kind(trajectories: &Trajectories, rests: &Rests, time: f64, slot: usize) -> EventKind {
     if time == f64::INFINITY {
         // nothing ever happens, perhaps because there is no sphere
         return EventKind::Crossing;
     }
-    let record = &trajectories.records[seat];
+    let record = &trajectories.records[slot];
     if record.plan.contact == time {
         EventKind::Contact
     } else if !rests.is_empty() && rests.end_led_by(record.sphere as usize) == time {
@@ -35,12 +35,12 @@ pub(crate) fn event_kind(trajectories: &Trajectories, rests: &Rests, time: f64, 
     }
 }
 
-/// The place of the entry of a seat at `time` (s) among those of the same time.
-pub(crate) fn event_order(trajectories: &Trajectories, rests: &Rests, time: f64, seat: usize) -> EventOrder {
-    let i = trajectories.sphere(seat);
-    match event_kind(trajectories, rests, time, seat) {
+/// The place of the entry of a slot at `time` (s) among those of the same time.
+pub(crate) fn event_order(trajectories: &Trajectories, rests: &Rests, time: f64, slot: usize) -> EventOrder {
+    let i = trajectories.sphere(slot);
+    match event_kind(trajectories, rests, time, slot) {
         EventKind::Contact => {
-            let (kind, a, b) = trajectories.key(seat, &trajectories.records[seat].plan);
+            let (kind, a, b) = trajectories.key(slot, &trajectories.records[slot].plan);
             (if kind == Kind::Wall { 0 } else { 1 }, a, b)
         }
         EventKind::IslandEnd => (2, i, 0),
@@ -48,10 +48,10 @@ pub(crate) fn event_order(trajectories: &Trajectories, rests: &Rests, time: f64,
     }
 }
 
-/// When the next event of a seat is, s: of its sphere's plan, or the end of the island that the sphere leads.
+/// When the next event of a slot is, s: of its sphere's plan, or the end of the island that the sphere leads.
 #[inline]
-pub(crate) fn event_time(trajectories: &Trajectories, rests: &Rests, seat: usize) -> f64 {
-    let record = &trajectories.records[seat];
+pub(crate) fn event_time(trajectories: &Trajectories, rests: &Rests, slot: usize) -> f64 {
+    let record = &trajectories.records[slot];
     let time = record.plan.contact.min(record.plan.crossing);
     if rests.is_empty() { time } else { time.min(rests.end_led_by(record.sphere as usize)) }
 }

@@ -1,4 +1,4 @@
-//! Which sphere sits where: neighbours side by side, so that what an event reads lies together.
+//! The order of the records: neighbours side by side, so that what an event reads lies together.
 
 use super::cells::nearness;
 use super::parts::Schedule;
@@ -7,27 +7,27 @@ use crate::physics::events::islands::resting::Rests;
 use crate::physics::events::trajectories::Trajectories;
 
 impl<D: Detector> Schedule<D> {
-    /// Seats the spheres by the coordinates of their cells.
-    pub(super) fn reseat(&mut self, trajectories: &mut Trajectories, rests: &Rests) {
-        let key = |seat: usize| {
-            let record = &trajectories.records[seat];
-            (nearness(record.spot.cube), record.sphere, seat as u32)
+    /// Orders the records by the coordinates of their cells.
+    pub(super) fn order_by_cells(&mut self, trajectories: &mut Trajectories, rests: &Rests) {
+        let key = |slot: usize| {
+            let record = &trajectories.records[slot];
+            (nearness(record.cell.coordinates), record.sphere, slot as u32)
         };
         let mut order: Vec<_> = (0..trajectories.records.len()).map(key).collect();
         order.sort_unstable();
-        let order: Vec<u32> = order.into_iter().map(|(.., seat)| seat).collect();
+        let order: Vec<u32> = order.into_iter().map(|(.., slot)| slot).collect();
         self.reorder(trajectories, rests, &order);
     }
 
-    /// The sphere at seat `order[s]` comes to seat s.
+    /// The sphere at slot `order[s]` comes to slot s.
     pub(crate) fn reorder(&mut self, trajectories: &mut Trajectories, rests: &Rests, order: &[u32]) {
-        trajectories.reseat(order);
+        trajectories.reorder(order);
         if let Some(cells) = &mut self.cells {
-            cells.fill(trajectories.records.iter().map(|record| record.spot.place));
+            cells.fill(trajectories.records.iter().map(|record| record.cell.index));
         }
         self.forget();
-        for seat in 0..order.len() {
-            self.enter(trajectories, rests, seat);
+        for slot in 0..order.len() {
+            self.enter(trajectories, rests, slot);
         }
     }
 }
@@ -60,7 +60,7 @@ mod tests {
             assert_eq!(still.advance(&model, &mut log, Until::Time(f64::INFINITY), 50), Progress::Yielded);
             assert_eq!(moved.advance(&model, &mut moved_log, Until::Time(f64::INFINITY), 50), Progress::Yielded);
             // 37 has no factor in common with 100: a permutation, another one each round
-            let order: Vec<u32> = (0..100).map(|seat| ((37 * seat + 11 * round) % 100) as u32).collect();
+            let order: Vec<u32> = (0..100).map(|slot| ((37 * slot + 11 * round) % 100) as u32).collect();
             moved.schedule.reorder(&mut moved.mechanics.trajectories, &moved.mechanics.rests, &order);
         }
         assert_eq!(moved.at(&model, moved.time()).hash(), still.at(&model, still.time()).hash());

@@ -19,9 +19,9 @@ pub(crate) struct Schedule<D> {
     pub(crate) detector: D,
     /// Gaps computed since the log was last told.
     pub(crate) evaluations: u64,
-    /// By seat.
+    /// By slot.
     pub(crate) queue: Queue,
-    /// The earliest event and the seat it is entered for, as long as nothing has changed since it was looked up.
+    /// The earliest event and the slot it is entered for, as long as nothing has changed since it was looked up.
     pub(super) next: Option<(f64, usize)>,
     pub(super) ties: Ties,
     /// Where neighbours are looked up; none for few spheres, who look at all others.
@@ -50,7 +50,7 @@ impl<D> Schedule<D> {
         }
     }
 
-    /// The earliest event (s) and the seat it is entered for; seat 0 if nothing ever happens.
+    /// The earliest event (s) and the slot it is entered for; slot 0 if nothing ever happens.
     #[inline]
     pub(crate) fn take_next(&mut self, trajectories: &Trajectories, rests: &Rests) -> (f64, usize) {
         if let Some(next) = self.next.take() {
@@ -58,9 +58,9 @@ impl<D> Schedule<D> {
         }
         match self.queue.earliest() {
             (f64::INFINITY, _) => (f64::INFINITY, 0),
-            (time, Some(seat)) => (time, seat),
+            (time, Some(slot)) => (time, slot),
             (time, None) => {
-                let order = |seat: usize| event_order(trajectories, rests, time, seat);
+                let order = |slot: usize| event_order(trajectories, rests, time, slot);
                 (time, self.ties.first(&self.queue, time, order))
             }
         }
@@ -71,7 +71,7 @@ impl<D> Schedule<D> {
         self.next = Some(next);
     }
 
-    /// Seats, or entries of many of them, have changed: what was looked up is void.
+    /// Slots, or entries of many of them, have changed: what was looked up is void.
     pub(super) fn forget(&mut self) {
         self.next = None;
         self.ties = Ties::none();

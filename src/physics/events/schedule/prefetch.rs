@@ -27,13 +27,13 @@ const LISTED: usize = 64;
 /// A guess at the next events.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Prefetch {
-    /// Time, s, and seat.
+    /// Time, s, and slot.
     list: Vec<(f64, u32)>,
     /// Events handled since it was made.
     at: usize,
     /// How far it should reach, s.
     span: f64,
-    near: Option<Box<Candidates>>,
+    candidates: Option<Box<Candidates>>,
     /// Scratch buffers for looking into the queue.
     blocks: [Vec<u32>; 2],
 }
@@ -45,10 +45,10 @@ fn crosses(record: &Record) -> bool {
 
 /// Where a sphere will look around.
 fn next_spot(cells: &Cells, record: &Record) -> CellRef {
-    if crosses(record) && !record.spot.is_loose() { cells.beyond(record.spot, record.plan.way) } else { record.spot }
+    if crosses(record) && !record.cell.is_loose() { cells.beyond(record.cell, record.plan.exit) } else { record.cell }
 }
 
-/// The seat of the sphere that it meets, if that comes first.
+/// The slot of the sphere that it meets, if that comes first.
 fn partner(record: &Record) -> Option<usize> {
     (!crosses(record) && record.plan.kind == Kind::Pair).then_some(record.plan.other as usize)
 }
@@ -66,43 +66,43 @@ impl Prefetch {
         if self.at + PLACES >= self.list.len().max(2 * PLACES) {
             self.list_events(trajectories, queue, simd);
         }
-        let Prefetch { list, at, near, .. } = self;
+        let Prefetch { list, at, candidates, .. } = self;
         let records = &trajectories.records[..];
-        let near = near.get_or_insert_with(|| Box::new(Candidates::empty()));
-        let due = |ahead: usize| list.get(*at + ahead).map(|&(_, seat)| &records[seat as usize]);
+        let candidates = candidates.get_or_insert_with(|| Box::new(Candidates::empty()));
+        let due = |ahead: usize| list.get(*at + ahead).map(|&(_, slot)| &records[slot as usize]);
         if let Some(record) = due(PLACES) {
             cells.fetch_around(next_spot(cells, record), simd);
             if let Some(other) = partner(record) {
-                simd.fetch(&records[other].line);
+                simd.fetch(&records[other].trajectory);
                 simd.fetch(&records[other].plan);
                 queue.fetch(other);
             }
         }
-        let mut lines = |spot: CellRef, way| {
-            if spot.is_loose() {
+        let mut lines = |cell: CellRef, way| {
+            if cell.is_loose() {
                 return;
             }
             match way {
-                None => cells.around(spot, near),
-                Some(way) => cells.ahead(spot, way, near),
+                None => cells.around(cell, candidates),
+                Some(way) => cells.ahead(cell, way, candidates),
             }
-            near.seats().iter().for_each(|&seat| simd.fetch(&records[seat as usize].line));
+            candidates.slots().iter().for_each(|&slot| simd.fetch(&records[slot as usize].trajectory));
         };
         if let Some(record) = due(LINES) {
-            lines(next_spot(cells, record), crosses(record).then_some(record.plan.way));
+            lines(next_spot(cells, record), crosses(record).then_some(record.plan.exit));
             if let Some(other) = partner(record) {
-                cells.fetch_around(records[other].spot, simd);
+                cells.fetch_around(records[other].cell, simd);
             }
         }
         if let Some(record) = due(PARTNER)
             && let Some(other) = partner(record)
         {
             // what is around both has been asked for: it is the layers on the partner's side that are missing
-            let spot = records[other].spot;
+            let cell = records[other].cell;
             for axis in 0..3 {
-                let step = spot.cube[axis] - record.spot.cube[axis];
+                let step = cell.coordinates[axis] - record.cell.coordinates[axis];
                 if step != 0 {
-                    lines(spot, Some(Exit { axis: axis as u8, sign: step.signum() as i8 }));
+                    lines(cell, Some(Exit { axis: axis as u8, sign: step.signum() as i8 }));
                 }
             }
         }
@@ -120,9 +120,9 @@ impl Prefetch {
         } else if list.len() > 2 * LISTED {
             *span *= 0.7;
         }
-        for &(_, seat) in list.iter() {
-            simd.fetch(&trajectories.records[seat as usize].line);
-            simd.fetch(&trajectories.records[seat as usize].plan);
+        for &(_, slot) in list.iter() {
+            simd.fetch(&trajectories.records[slot as usize].trajectory);
+            simd.fetch(&trajectories.records[slot as usize].plan);
         }
     }
 }

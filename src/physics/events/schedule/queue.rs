@@ -1,36 +1,36 @@
-//! The earliest event of many: a tournament of eight.
+//! The earliest event of many: a tree of minima of eight.
 //!
-//! Each seat has one entry, the time of its next event. Every eight entries share a winner one level up, so that a
-//! changed entry is one cache line a level and a million spheres are seven levels. Who wins is kept beside the winner's
+//! Each slot has one entry, the time of its next event. The minimum of every eight entries is kept one level up, so that a
+//! changed entry is one cache line a level and a million spheres are seven levels. The slot of a minimum is kept beside its
 //! time, so that the first of all is found without going down again. Bounded memory, no rebuilding, no dependence on how
 //! event rates change (a calendar of buckets is within a few per cent here, and needs retuning).
 
-use super::simd::{Eight, Judge, Simd, Tournament};
+use super::simd::{Eight, MinOfEight, MinTreeJob, Simd};
 
-/// Entries that share a winner: one cache line of times.
+/// Entries that share a minimum: one cache line of times.
 const FAN: usize = 8;
 
 /// Levels that the indices of spheres can need: 8¹¹ > 2³².
 const MOST_LEVELS: usize = 11;
 
-/// In place of a winner: several have the same time.
+/// In place of a slot: several have the same time.
 const TIED: u32 = u32::MAX;
 
-/// The next event time at each seat, s; infinite where there is none.
+/// The next event time at each slot, s; infinite where there is none.
 #[derive(Debug, Clone)]
 pub(crate) struct Queue {
-    /// Leaves first, then winners of eight, up to a level of one block.
+    /// Leaves first, then minima of eight, up to a level of one block.
     blocks: Vec<Eight>,
-    /// Who won each entry above the leaves, block by block from the second level on.
-    winners: Vec<[u32; FAN]>,
+    /// The slot of each minimum above the leaves, block by block from the second level on.
+    holders: Vec<[u32; FAN]>,
     /// Where each level begins.
     starts: [usize; MOST_LEVELS],
     levels: usize,
-    lanes: Simd,
+    simd: Simd,
 }
 
 impl Queue {
-    /// No events at `count` seats.
+    /// No events at `count` slots.
     pub(crate) fn new(count: usize) -> Queue {
         let (mut starts, mut levels, mut total) = ([0; MOST_LEVELS], 0, 0);
         let mut width = count.max(1);
@@ -42,42 +42,42 @@ impl Queue {
             if width == 1 {
                 let blocks = vec![Eight([f64::INFINITY; FAN]); total];
                 let leaves = if levels > 1 { starts[1] } else { total };
-                let winners = vec![[TIED; FAN]; total - leaves];
-                return Queue { blocks, winners, starts, levels, lanes: Simd::new() };
+                let holders = vec![[TIED; FAN]; total - leaves];
+                return Queue { blocks, holders, starts, levels, simd: Simd::new() };
             }
         }
     }
 
-    /// Sets the next event at a seat to `time`, s.
+    /// Sets the next event at a slot to `time`, s.
     #[inline]
-    pub(crate) fn set(&mut self, seat: usize, time: f64) {
-        let lanes = self.lanes;
-        lanes.run(Lift::<false> { queue: self, seat, time });
+    pub(crate) fn set(&mut self, slot: usize, time: f64) {
+        let simd = self.simd;
+        simd.run(Update::<false> { queue: self, slot, time });
     }
 
-    /// The same for the seat of the first event, which has won all the way up: the earliest time then, and its seat if it
-    /// is the only one.
+    /// Replaces the time of the minimum, which is entered for `slot`; returns the new minimum (s) and its slot, none if
+    /// several tie.
     #[inline]
-    pub(crate) fn replace_first(&mut self, seat: usize, time: f64) -> Option<(f64, usize)> {
-        let lanes = self.lanes;
-        let (time, winner) = lanes.run(Lift::<true> { queue: self, seat, time });
-        (winner != TIED).then_some((time, winner as usize))
+    pub(crate) fn replace_first(&mut self, slot: usize, time: f64) -> Option<(f64, usize)> {
+        let simd = self.simd;
+        let (time, holder) = simd.run(Update::<true> { queue: self, slot, time });
+        (holder != TIED).then_some((time, holder as usize))
     }
 
-    /// The earliest time, s, infinite if nothing ever happens; and its seat if it is the only one.
+    /// The earliest time, s, infinite if nothing ever happens; and its slot if it is the only one.
     #[inline]
     pub(crate) fn earliest(&self) -> (f64, Option<usize>) {
-        let (time, winner) = self.lanes.run(Winner { queue: self });
-        (time, (winner != TIED).then_some(winner as usize))
+        let (time, holder) = self.simd.run(Lookup { queue: self });
+        (time, (holder != TIED).then_some(holder as usize))
     }
 
-    /// When the event of a seat is, s.
-    pub(crate) fn time_of(&self, seat: usize) -> f64 {
-        self.blocks[seat / FAN].0[seat % FAN]
+    /// When the event of a slot is, s.
+    pub(crate) fn time_of(&self, slot: usize) -> f64 {
+        self.blocks[slot / FAN].0[slot % FAN]
     }
 
     /// Lists the events until `time` (s), no more than `most` or little more, level by level: what the next one will read
-    /// is asked for meanwhile. `blocks` is lent.
+    /// is asked for meanwhile. `blocks` are scratch buffers.
     pub(crate) fn until(&self, time: f64, most: usize, list: &mut Vec<(f64, u32)>, blocks: &mut [Vec<u32>; 2]) {
         let [above, below] = blocks;
         above.clear();
@@ -91,7 +91,7 @@ impl Queue {
                         match level {
                             0 => list.push((entry, place)),
                             _ => {
-                                self.lanes.fetch(&self.blocks[self.starts[level - 1] + place as usize]);
+                                self.simd.fetch(&self.blocks[self.starts[level - 1] + place as usize]);
                                 below.push(place);
                             }
                         }
@@ -102,13 +102,13 @@ impl Queue {
         }
     }
 
-    /// Asks for the entry of a seat: it will change soon.
+    /// Asks for the entry of a slot: it will change soon.
     #[inline]
-    pub(crate) fn fetch(&self, seat: usize) {
-        self.lanes.fetch(&self.blocks[seat / FAN]);
+    pub(crate) fn fetch(&self, slot: usize) {
+        self.simd.fetch(&self.blocks[slot / FAN]);
     }
 
-    /// Visits every seat with the earliest time, s.
+    /// Visits every slot with the earliest time, s.
     #[cold]
     pub(crate) fn each_at(&self, time: f64, mut visit: impl FnMut(usize)) {
         self.descend(self.levels - 1, 0, time, &mut visit);
@@ -126,68 +126,68 @@ impl Queue {
     }
 }
 
-/// An entry changes: the winners above it are found anew, all of them or up to the first that stays.
-struct Lift<'a, const ALL: bool> {
+/// An entry changes: the minima above it are found anew, all of them or up to the first that stays.
+struct Update<'a, const ALL: bool> {
     queue: &'a mut Queue,
-    seat: usize,
+    slot: usize,
     /// The new time, s.
     time: f64,
 }
 
-impl<const ALL: bool> Tournament for Lift<'_, ALL> {
-    /// The earliest time and its seat, if all were found anew.
+impl<const ALL: bool> MinTreeJob for Update<'_, ALL> {
+    /// The earliest time and its slot, if all were found anew.
     type Output = (f64, u32);
 
     #[inline(always)]
-    fn run(self, judge: impl Judge) -> (f64, u32) {
-        let Lift { queue: Queue { blocks, winners, starts, levels, .. }, seat, mut time } = self;
-        let (leaves, mut place) = (starts[1], seat);
+    fn run(self, minimum: impl MinOfEight) -> (f64, u32) {
+        let Update { queue: Queue { blocks, holders, starts, levels, .. }, slot, mut time } = self;
+        let (leaves, mut place) = (starts[1], slot);
         let mut level = 0;
         loop {
             let block = starts[level] + place / FAN;
-            let (least, equal) = judge.exchange(&mut blocks[block], place % FAN, time);
+            let (least, equal) = minimum.exchange(&mut blocks[block], place % FAN, time);
             let first = equal.trailing_zeros();
             let entered = if level == 0 {
                 (place - place % FAN) as u32 + first
             } else {
-                winners[block - leaves][first as usize % FAN]
+                holders[block - leaves][first as usize % FAN]
             };
-            let winner = if equal & equal.wrapping_sub(1) != 0 { TIED } else { entered };
+            let holder = if equal & equal.wrapping_sub(1) != 0 { TIED } else { entered };
             place /= FAN;
             level += 1;
             if level == *levels {
-                return (least, winner);
+                return (least, holder);
             }
             let above = starts[level] + place / FAN;
-            let entry = &mut winners[above - leaves][place % FAN];
-            if !ALL && (*entry == winner) & (blocks[above].0[place % FAN] == least) {
+            let entry = &mut holders[above - leaves][place % FAN];
+            if !ALL && (*entry == holder) & (blocks[above].0[place % FAN] == least) {
                 return (least, TIED);
             }
-            (*entry, time) = (winner, least);
+            (*entry, time) = (holder, least);
         }
     }
 }
 
-/// The earliest time, and its seat unless several have it.
-struct Winner<'a> {
+/// The earliest time, and its slot unless several have it.
+struct Lookup<'a> {
     queue: &'a Queue,
 }
 
-impl Tournament for Winner<'_> {
+impl MinTreeJob for Lookup<'_> {
     type Output = (f64, u32);
 
     #[inline(always)]
-    fn run(self, judge: impl Judge) -> (f64, u32) {
-        let Queue { blocks, winners, .. } = self.queue;
+    fn run(self, minimum: impl MinOfEight) -> (f64, u32) {
+        let Queue { blocks, holders, .. } = self.queue;
         let Some(root) = blocks.last() else { return (f64::INFINITY, TIED) };
-        let (time, equal) = judge.judge(root);
+        let (time, equal) = minimum.of(root);
         let first = equal.trailing_zeros();
-        let winner = match winners.last() {
+        let holder = match holders.last() {
             _ if equal & equal.wrapping_sub(1) != 0 => TIED,
-            Some(winners) => winners[first as usize % FAN],
+            Some(holders) => holders[first as usize % FAN],
             None => first,
         };
-        (time, winner)
+        (time, holder)
     }
 }
 
@@ -208,7 +208,7 @@ mod tests {
             let first = queue.earliest();
             if first.1 == Some(i) {
                 let found = queue.replace_first(i, time);
-                assert!(found.is_none_or(|(time, seat)| (time, Some(seat)) == queue.earliest()));
+                assert!(found.is_none_or(|(time, slot)| (time, Some(slot)) == queue.earliest()));
             } else {
                 queue.set(i, time);
             }
@@ -217,10 +217,10 @@ mod tests {
             let expected: Vec<usize> = (0..count).filter(|&i| times[i] == least).collect();
             let (found, only) = queue.earliest();
             let mut all = Vec::new();
-            queue.each_at(found, |seat| all.push(seat));
+            queue.each_at(found, |slot| all.push(slot));
             assert_eq!((found, &all), (least, &expected));
-            // a tie may go unnoticed by the seat, never the other way round
-            assert!(only.is_none_or(|seat| expected == [seat]));
+            // a tie may go unnoticed by the slot, never the other way round
+            assert!(only.is_none_or(|slot| expected == [slot]));
             assert!(expected.len() > 1 || least == f64::INFINITY || only.is_some());
         }
     }

@@ -20,8 +20,8 @@ pub(super) struct Search<'a, D> {
     pub(super) rests: &'a Rests,
     pub(super) detector: &'a D,
     pub(super) simd: Simd,
-    /// The sphere's seat.
-    pub(super) seat: usize,
+    /// The sphere's slot.
+    pub(super) slot: usize,
     /// The sphere's path from now on.
     pub(super) path: Path,
     /// End of the sphere's current parabola, s; later contacts are not searched for.
@@ -32,7 +32,7 @@ impl<D: Detector> Search<'_, D> {
     /// Looks at some walls, in ascending order; returns how many.
     #[inline]
     pub(super) fn walls(&self, walls: impl Iterator<Item = usize>, plan: &mut Plan) -> u64 {
-        let (i, r) = (self.trajectories.sphere(self.seat), self.trajectories.records[self.seat].line.r);
+        let (i, r) = (self.trajectories.sphere(self.slot), self.trajectories.records[self.slot].trajectory.r);
         let mut count = 0;
         for wall in walls {
             if self.rests.holds((Kind::Wall, i, wall)) {
@@ -45,7 +45,8 @@ impl<D: Detector> Search<'_, D> {
             };
             let time = self.trajectories.now + due.after;
             if time < plan.contact || (time == plan.contact && plan.kind == Kind::Pair) {
-                (plan.contact, plan.kind, plan.other, plan.sure) = (time, Kind::Wall, wall as u32, due.sure);
+                (plan.contact, plan.kind, plan.other, plan.is_contact) =
+                    (time, Kind::Wall, wall as u32, due.is_contact);
             }
         }
         count
@@ -76,26 +77,26 @@ impl<D: Detector> Search<'_, D> {
         if D::STRAIGHT_PAIRS && self.trajectories.common().is_some() {
             self.straight_pairs(candidates, plan);
         } else {
-            for &other in candidates.seats().iter().filter(|&&other| other as usize != self.seat) {
+            for &other in candidates.slots().iter().filter(|&&other| other as usize != self.slot) {
                 self.pair(other as usize, plan);
             }
         }
-        candidates.seats().len() as u64
+        candidates.slots().len() as u64
     }
 
     /// Looks at pairs whose relative motion is straight.
     #[inline(always)]
     fn straight_pairs(&self, candidates: &mut Candidates, plan: &mut Plan) {
         let records = &self.trajectories.records[..];
-        let query = Query { path: &self.path, r: records[self.seat].line.r, now: self.trajectories.now };
-        let (seats, batches) = candidates.padded(self.seat);
-        let mut rest = seats;
+        let query = Query { path: &self.path, r: records[self.slot].trajectory.r, now: self.trajectories.now };
+        let (slots, batches) = candidates.padded(self.slot);
+        let mut rest = slots;
         while !rest.is_empty() {
-            let (seats, later) = rest.split_at(rest.len().min(MOST));
+            let (slots, later) = rest.split_at(rest.len().min(MOST));
             rest = later;
-            let first = self.simd.look(query, records, seats, batches);
+            let first = self.simd.look(query, records, slots, batches);
             if first.doubtful || !self.rests.is_empty() {
-                self.one_by_one(seats, batches, first.meet, plan);
+                self.one_by_one(slots, batches, first.meet, plan);
             } else if first.time < f64::INFINITY {
                 self.offer(first.with as usize, first.time, true, plan);
             }
@@ -106,11 +107,11 @@ impl<D: Detector> Search<'_, D> {
     /// same time.
     #[cold]
     #[inline(never)]
-    fn one_by_one(&self, seats: &[u32], batches: &[PairBatch], mut meet: u64, plan: &mut Plan) {
+    fn one_by_one(&self, slots: &[u32], batches: &[PairBatch], mut meet: u64, plan: &mut Plan) {
         while meet != 0 {
             let k = meet.trailing_zeros() as usize;
             meet &= meet - 1;
-            let (batch, lane, other) = (&batches[k / 4], k % 4, seats[k] as usize);
+            let (batch, lane, other) = (&batches[k / 4], k % 4, slots[k] as usize);
             let (b, c) = (batch.b[lane], batch.c[lane]);
             let time = self.trajectories.now + c / (batch.discriminant[lane].sqrt() - b);
             if c <= 0.0 {
@@ -126,32 +127,32 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
         let (records, now) = (&self.trajectories.records, self.trajectories.now);
-        let line = &records[other].line;
-        let reach = records[self.seat].line.r + line.r;
+        let line = &records[other].trajectory;
+        let reach = records[self.slot].trajectory.r + line.r;
         let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
             let t = straight_pair(self.path.x - (line.x + line.v * (now - line.t)), self.path.v - line.v, reach);
-            t.map(|after| Due { after, sure: true })
+            t.map(|after| Due { after, is_contact: true })
         } else {
             let before = D::pair_horizon(plan.contact, records[other].plan.contact);
             self.detector.pair(&self.path, &self.trajectories.path_from(other), reach, self.span_before(before))
         };
         let Some(due) = found else { return 1 };
-        self.offer(other, now + due.after, due.sure, plan)
+        self.offer(other, now + due.after, due.is_contact, plan)
     }
 
     /// Plans to meet the sphere at `other` at `time` (s) if nothing is planned before; returns 0 if the two rest on each
     /// other.
     #[inline]
-    fn offer(&self, other: usize, time: f64, sure: bool, plan: &mut Plan) -> u64 {
+    fn offer(&self, other: usize, time: f64, is_contact: bool, plan: &mut Plan) -> u64 {
         if time < plan.contact || time == plan.contact && self.wins_tie(other, plan) {
             if !self.rests.is_empty() {
-                let (i, j) = (self.trajectories.sphere(self.seat), self.trajectories.sphere(other));
+                let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
                 if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
                     return 0;
                 }
             }
-            (plan.contact, plan.kind, plan.sure) = (time, Kind::Pair, sure);
-            (plan.other, plan.stamp) = (other as u32, self.trajectories.records[other].stamp);
+            (plan.contact, plan.kind, plan.is_contact) = (time, Kind::Pair, is_contact);
+            (plan.other, plan.motion_version) = (other as u32, self.trajectories.records[other].motion_version);
         }
         1
     }
@@ -160,7 +161,7 @@ impl<D: Detector> Search<'_, D> {
     #[cold]
     fn wins_tie(&self, other: usize, plan: &Plan) -> bool {
         let new = Plan { kind: Kind::Pair, other: other as u32, ..*plan };
-        let key = |plan: &Plan| self.trajectories.key(self.seat, plan);
+        let key = |plan: &Plan| self.trajectories.key(self.slot, plan);
         plan.kind == Kind::Pair && plan.contact.is_finite() && key(&new) < key(plan)
     }
 }

@@ -9,7 +9,7 @@ use crate::physics::path::Path;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::V3;
 
-/// Seats that are looked at in one call at most: a bit each.
+/// Slots that are looked at in one call at most: a bit each.
 pub(crate) const MOST: usize = 64;
 
 /// Eight times: one cache line.
@@ -37,9 +37,9 @@ impl PairBatch {
 /// The earliest of some pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Earliest {
-    /// When they meet, s; infinite if none does before the other meets somebody.
+    /// When they meet, s; infinite if none does before the other has its own next contact.
     pub(crate) time: f64,
-    /// The other's seat.
+    /// The other's slot.
     pub(crate) with: u32,
     /// A bit for each pair that meets.
     pub(crate) meet: u64,
@@ -47,7 +47,7 @@ pub(crate) struct Earliest {
     pub(crate) doubtful: bool,
 }
 
-/// Who looks: a sphere's path and radius at the present, s, with the acceleration that all share.
+/// The query sphere: its path from `now` (s) on and its radius (m); all spheres share its acceleration.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Query<'a> {
     pub(crate) path: &'a Path,
@@ -80,24 +80,24 @@ impl Simd {
         }
     }
 
-    /// Looks at the pairs of the eye with the spheres at some seats, four by four and [`MOST`] at most.
+    /// Looks at the pairs of the query with the spheres at some slots, four by four and [`MOST`] at most.
     #[inline]
     pub(crate) fn look(
         self,
-        eye: Query,
+        query: Query,
         records: &[Record],
-        seats: &[u32],
-        fours: &mut [PairBatch; BATCHES],
+        slots: &[u32],
+        batches: &mut [PairBatch; BATCHES],
     ) -> Earliest {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
-            return match eye.path.a == DVec3::ZERO {
-                true => wide.vectorize(wide::Look::<false> { wide, eye, records, seats, fours }),
-                false => wide.vectorize(wide::Look::<true> { wide, eye, records, seats, fours }),
+            return match query.path.a == DVec3::ZERO {
+                true => wide.vectorize(wide::PairScan::<false> { wide, query, records, slots, batches }),
+                false => wide.vectorize(wide::PairScan::<true> { wide, query, records, slots, batches }),
             };
         }
-        let meet = look(eye, records, seats, fours);
-        earliest(meet, records, seats, fours, |four| times(eye.now, four))
+        let meet = look(query, records, slots, batches);
+        earliest(meet, records, slots, batches, |batch| times(query.now, batch))
     }
 
     /// Asks for what will be read soon.
@@ -109,9 +109,9 @@ impl Simd {
         }
     }
 
-    /// Does a job on many eights.
+    /// Does a job on the tree of minima of eight, as the processor can.
     #[inline]
-    pub(crate) fn run<J: Tournament>(self, job: J) -> J::Output {
+    pub(crate) fn run<J: MinTreeJob>(self, job: J) -> J::Output {
         #[cfg(target_arch = "x86_64")]
         if let Some(wide) = self.wide {
             return wide.vectorize(wide::Run { wide, job });
@@ -120,19 +120,19 @@ impl Simd {
     }
 }
 
-/// A job on many eights.
-pub(crate) trait Tournament {
+/// A job on the tree of minima of eight.
+pub(crate) trait MinTreeJob {
     /// What comes of it.
     type Output;
-    /// Does it.
-    fn run(self, judge: impl Judge) -> Self::Output;
+    /// Does it, with this way to find the smallest of eight.
+    fn run(self, minimum: impl MinOfEight) -> Self::Output;
 }
 
-/// Judges eight times.
-pub(crate) trait Judge: Copy {
+/// Finds the smallest of eight times.
+pub(crate) trait MinOfEight: Copy {
     /// The smallest, and a bit for each that equals it.
-    fn judge(self, times: &Eight) -> (f64, u32);
-    /// Puts `time` in the place `k` of another, and judges.
+    fn of(self, times: &Eight) -> (f64, u32);
+    /// Puts `time` in the place `k` of another, and finds the smallest.
     fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32);
 }
 
@@ -140,9 +140,9 @@ pub(crate) trait Judge: Copy {
 #[derive(Clone, Copy)]
 struct Plain;
 
-impl Judge for Plain {
+impl MinOfEight for Plain {
     #[inline]
-    fn judge(self, times: &Eight) -> (f64, u32) {
+    fn of(self, times: &Eight) -> (f64, u32) {
         let smaller = |a: f64, b: f64| if b < a { b } else { a };
         let [a, b, c, d, e, f, g, h] = times.0;
         let least = smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)));
@@ -153,30 +153,30 @@ impl Judge for Plain {
     #[inline]
     fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32) {
         times.0[k] = time;
-        self.judge(times)
+        self.of(times)
     }
 }
 
-fn look(eye: Query, records: &[Record], seats: &[u32], fours: &mut [PairBatch; BATCHES]) -> u64 {
+fn look(query: Query, records: &[Record], slots: &[u32], batches: &mut [PairBatch; BATCHES]) -> u64 {
     let mut meet = 0;
-    for (k, &seat) in seats.iter().enumerate() {
-        let line = &records[seat as usize].line;
-        let (dt, a) = (eye.now - line.t, eye.path.a);
-        let x = eye.path.x - (line.x + (line.v + a * (0.5 * dt)) * dt);
-        let v = eye.path.v - (line.v + a * dt);
-        let reach = eye.r + line.r;
+    for (k, &slot) in slots.iter().enumerate() {
+        let line = &records[slot as usize].trajectory;
+        let (dt, a) = (query.now - line.t, query.path.a);
+        let x = query.path.x - (line.x + (line.v + a * (0.5 * dt)) * dt);
+        let v = query.path.v - (line.v + a * dt);
+        let reach = query.r + line.r;
         let (b, c) = (x.dot(v).min(0.0), x.length_squared() - reach * reach);
         let discriminant = b * b - v.length_squared() * c;
-        let four = &mut fours[k / 4];
-        (four.b[k % 4], four.c[k % 4], four.discriminant[k % 4]) = (b, c, discriminant);
+        let batch = &mut batches[k / 4];
+        (batch.b[k % 4], batch.c[k % 4], batch.discriminant[k % 4]) = (b, c, discriminant);
         meet |= u64::from(discriminant > 0.0 && b < 0.0) << k;
     }
     meet
 }
 
 /// When four pairs that meet do, s.
-fn times(now: f64, four: &PairBatch) -> [f64; 4] {
-    [0, 1, 2, 3].map(|k| now + four.c[k] / (four.discriminant[k].sqrt() - four.b[k]))
+fn times(now: f64, batch: &PairBatch) -> [f64; 4] {
+    [0, 1, 2, 3].map(|k| now + batch.c[k] / (batch.discriminant[k].sqrt() - batch.b[k]))
 }
 
 /// The earliest of the pairs with a bit in `meet`, four at a time: few meet at all, and how many cannot be predicted.
@@ -184,11 +184,11 @@ fn times(now: f64, four: &PairBatch) -> [f64; 4] {
 fn earliest(
     meet: u64,
     records: &[Record],
-    seats: &[u32],
-    fours: &[PairBatch; BATCHES],
+    slots: &[u32],
+    batches: &[PairBatch; BATCHES],
     times: impl Fn(&PairBatch) -> [f64; 4],
 ) -> Earliest {
-    let mut first = Earliest { time: f64::INFINITY, with: seats[0], meet, doubtful: false };
+    let mut first = Earliest { time: f64::INFINITY, with: slots[0], meet, doubtful: false };
     let mut left = meet;
     loop {
         // 64 when none is left, which stands for the pair that never meets
@@ -197,13 +197,13 @@ fn earliest(
             left &= left.wrapping_sub(1);
             hit
         });
-        let four = PairBatch {
-            b: hits.map(|k| fours[k / 4].b[k % 4]),
-            c: hits.map(|k| fours[k / 4].c[k % 4]),
-            discriminant: hits.map(|k| fours[k / 4].discriminant[k % 4]),
+        let batch = PairBatch {
+            b: hits.map(|k| batches[k / 4].b[k % 4]),
+            c: hits.map(|k| batches[k / 4].c[k % 4]),
+            discriminant: hits.map(|k| batches[k / 4].discriminant[k % 4]),
         };
-        let others = hits.map(|k| seats[k % MOST]);
-        let found = times(&four);
+        let others = hits.map(|k| slots[k % MOST]);
+        let found = times(&batch);
         // what the other meets before makes it look around anew, and find this one then
         let due = [0, 1, 2, 3].map(|k| {
             let theirs = records[others[k] as usize].plan.contact;
@@ -213,7 +213,7 @@ fn earliest(
         let least = smaller(smaller(due[0], due[1]), smaller(due[2], due[3]));
         let equal: u32 = (0..4).map(|k| u32::from(due[k] <= least) << k).sum();
         let tied = (equal & equal.wrapping_sub(1) != 0 || least == first.time) && least < f64::INFINITY;
-        let overlap = smaller(smaller(four.c[0], four.c[1]), smaller(four.c[2], four.c[3])) <= 0.0;
+        let overlap = smaller(smaller(batch.c[0], batch.c[1]), smaller(batch.c[2], batch.c[3])) <= 0.0;
         first.doubtful |= tied || overlap;
         if least < first.time {
             (first.time, first.with) = (least, others[equal.trailing_zeros() as usize % 4]);
@@ -233,16 +233,16 @@ mod wide {
     use glam::DVec3;
     use pulp::x86::V3;
 
-    use super::{BATCHES, Earliest, Eight, Judge, PairBatch, Query, Tournament, earliest};
+    use super::{BATCHES, Earliest, Eight, MinOfEight, MinTreeJob, PairBatch, Query, earliest};
     use crate::physics::events::record::{Record, Trajectory};
 
     /// Looks at pairs of spheres that an acceleration bends or not.
-    pub(crate) struct Look<'a, const BENT: bool> {
+    pub(crate) struct PairScan<'a, const BENT: bool> {
         pub(crate) wide: V3,
-        pub(crate) eye: Query<'a>,
+        pub(crate) query: Query<'a>,
         pub(crate) records: &'a [Record],
-        pub(crate) seats: &'a [u32],
-        pub(crate) fours: &'a mut [PairBatch; BATCHES],
+        pub(crate) slots: &'a [u32],
+        pub(crate) batches: &'a mut [PairBatch; BATCHES],
     }
 
     pub(crate) struct Run<J> {
@@ -250,7 +250,7 @@ mod wide {
         pub(crate) job: J,
     }
 
-    impl<J: Tournament> NullaryFnOnce for Run<J> {
+    impl<J: MinTreeJob> NullaryFnOnce for Run<J> {
         type Output = J::Output;
 
         #[inline(always)]
@@ -259,10 +259,10 @@ mod wide {
         }
     }
 
-    impl Judge for V3 {
+    impl MinOfEight for V3 {
         #[inline(always)]
-        fn judge(self, times: &Eight) -> (f64, u32) {
-            judge(self, halves(self, times))
+        fn of(self, times: &Eight) -> (f64, u32) {
+            minimum(self, halves(self, times))
         }
 
         #[inline(always)]
@@ -275,17 +275,17 @@ mod wide {
             let both =
                 [self.avx._mm256_blendv_pd(low, time, here(0.0)), self.avx._mm256_blendv_pd(high, time, here(4.0))];
             times.0 = pulp::cast(both);
-            judge(self, both)
+            minimum(self, both)
         }
     }
 
     #[inline(always)]
-    fn judge(wide: V3, [low, high]: [__m256d; 2]) -> (f64, u32) {
+    fn minimum(wide: V3, [low, high]: [__m256d; 2]) -> (f64, u32) {
         let avx = wide.avx;
         let four = avx._mm256_min_pd(low, high);
         let two = avx._mm256_min_pd(four, avx._mm256_permute2f128_pd::<1>(four, four));
         let least = avx._mm256_min_pd(two, avx._mm256_permute_pd::<5>(two));
-        // none is below the least: as in the plain judge
+        // none is below the least: as one by one
         let bits = |four| avx._mm256_movemask_pd(avx._mm256_cmp_pd::<LESS_OR_EQUAL>(four, least)) as u32;
         (pulp::cast::<__m256d, [f64; 4]>(least)[0], bits(low) | bits(high) << 4)
     }
@@ -300,19 +300,20 @@ mod wide {
         [wide.avx._mm256_set_pd(d, c, b, a), wide.avx._mm256_set_pd(h, g, f, e)]
     }
 
-    impl<const BENT: bool> NullaryFnOnce for Look<'_, BENT> {
+    impl<const BENT: bool> NullaryFnOnce for PairScan<'_, BENT> {
         type Output = Earliest;
 
         #[inline(always)]
         fn call(self) -> Earliest {
-            let Look { wide, eye, records, seats, fours } = self;
+            let PairScan { wide, query, records, slots, batches } = self;
             let avx = wide.avx;
             // beside the velocities the radii: what is subtracted there is the reach, but for its sign
-            let rows = [row(wide, eye.path.x, 0.0), row(wide, eye.path.v, -eye.r), row(wide, eye.path.a, 0.0)];
-            let (now, zero) = (avx._mm256_set1_pd(eye.now), avx._mm256_set1_pd(0.0));
+            let rows = [row(wide, query.path.x, 0.0), row(wide, query.path.v, -query.r), row(wide, query.path.a, 0.0)];
+            let (now, zero) = (avx._mm256_set1_pd(query.now), avx._mm256_set1_pd(0.0));
             let mut meet = 0;
-            for (k, (seats, four)) in seats.chunks_exact(4).zip(&mut fours[..]).enumerate() {
-                let [a, b, c, d] = [seats[0], seats[1], seats[2], seats[3]].map(|seat| &records[seat as usize].line);
+            for (k, (slots, batch)) in slots.chunks_exact(4).zip(&mut batches[..]).enumerate() {
+                let [a, b, c, d] =
+                    [slots[0], slots[1], slots[2], slots[3]].map(|slot| &records[slot as usize].trajectory);
                 let (one, two) = (apart::<BENT>(wide, rows, a, now), apart::<BENT>(wide, rows, b, now));
                 let (three, last) = (apart::<BENT>(wide, rows, c, now), apart::<BENT>(wide, rows, d, now));
                 let [x, y, z, _] = across(wide, [one.0, two.0, three.0, last.0]);
@@ -325,14 +326,14 @@ mod wide {
                 let b = avx._mm256_min_pd(dot(x, v), zero);
                 let c = avx._mm256_sub_pd(dot(x, x), avx._mm256_mul_pd(reach, reach));
                 let discriminant = avx._mm256_sub_pd(avx._mm256_mul_pd(b, b), avx._mm256_mul_pd(dot(v, v), c));
-                *four = PairBatch { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
+                *batch = PairBatch { b: pulp::cast(b), c: pulp::cast(c), discriminant: pulp::cast(discriminant) };
                 let (real, near) =
                     (avx._mm256_cmp_pd::<GREATER>(discriminant, zero), avx._mm256_cmp_pd::<GREATER>(zero, b));
                 let bits = avx._mm256_movemask_pd(avx._mm256_and_pd(real, near));
                 meet |= (bits as u64) << (4 * k);
             }
-            earliest(meet, records, seats, fours, |four| {
-                let [b, c, discriminant] = [four.b, four.c, four.discriminant].map(pulp::cast::<[f64; 4], __m256d>);
+            earliest(meet, records, slots, batches, |batch| {
+                let [b, c, discriminant] = [batch.b, batch.c, batch.discriminant].map(pulp::cast::<[f64; 4], __m256d>);
                 let root = avx._mm256_sqrt_pd(discriminant);
                 pulp::cast(avx._mm256_add_pd(now, avx._mm256_div_pd(c, avx._mm256_sub_pd(root, b))))
             })
@@ -344,7 +345,7 @@ mod wide {
         wide.avx._mm256_set_pd(last, p.z, p.y, p.x)
     }
 
-    /// Offset and relative velocity of a line from the eye's rows, at the present.
+    /// Offset and relative velocity of a line from the query's rows, at the present.
     #[inline(always)]
     fn apart<const BENT: bool>(
         wide: V3,
@@ -408,27 +409,27 @@ mod tests {
         for round in 0..2000 {
             let mut point = || dvec3(number(), number(), number());
             for record in &mut records {
-                (record.line.x, record.line.v, record.line.t) = (point(), point(), point().x);
-                record.line.r = point().y.abs();
+                (record.trajectory.x, record.trajectory.v, record.trajectory.t) = (point(), point(), point().x);
+                record.trajectory.r = point().y.abs();
             }
             let a = if round % 2 == 0 { DVec3::ZERO } else { point() };
             let path = Path { x: point(), v: point(), a };
-            let eye = Query { path: &path, r: 0.5, now: 1.5 };
-            let seats: Vec<u32> = (0..MOST as u32).rev().collect();
+            let query = Query { path: &path, r: 0.5, now: 1.5 };
+            let slots: Vec<u32> = (0..MOST as u32).rev().collect();
             let (mut wide, mut plain) = ([PairBatch::NEVER; BATCHES], [PairBatch::NEVER; BATCHES]);
-            let found = Simd::new().look(eye, &records, &seats, &mut wide);
-            assert_eq!(found, Simd::plain().look(eye, &records, &seats, &mut plain));
+            let found = Simd::new().look(query, &records, &slots, &mut wide);
+            assert_eq!(found, Simd::plain().look(query, &records, &slots, &mut plain));
             assert_eq!(wide, plain);
         }
     }
 
     #[test]
     fn eight_at_once_are_judged_as_one_by_one() {
-        struct Judged(Eight, usize, f64);
-        impl Tournament for Judged {
+        struct Both(Eight, usize, f64);
+        impl MinTreeJob for Both {
             type Output = [(f64, u32); 2];
-            fn run(mut self, judge: impl Judge) -> [(f64, u32); 2] {
-                [judge.exchange(&mut self.0, self.1, self.2), judge.judge(&self.0)]
+            fn run(mut self, minimum: impl MinOfEight) -> [(f64, u32); 2] {
+                [minimum.exchange(&mut self.0, self.1, self.2), minimum.of(&self.0)]
             }
         }
         let mut number = numbers();
@@ -440,8 +441,8 @@ mod tests {
             then[round % 8] = time;
             let least = then.into_iter().fold(f64::INFINITY, f64::min);
             let expected = [(least, (0..8).map(|k| u32::from(then[k] == least) << k).sum()); 2];
-            assert_eq!(Simd::new().run(Judged(times, round % 8, time)), expected);
-            assert_eq!(Judged(times, round % 8, time).run(Plain), expected);
+            assert_eq!(Simd::new().run(Both(times, round % 8, time)), expected);
+            assert_eq!(Both(times, round % 8, time).run(Plain), expected);
         }
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 use super::entry::EventOrder;
 use super::queue::Queue;
 
-/// Seats with an event at one time, the first on top. What has changed since it was put in is noticed when it comes up.
+/// Slots with an event at one time, the first on top. What has changed since it was put in is noticed when it comes up.
 #[derive(Debug, Clone)]
 pub(crate) struct Ties {
     /// s; no number while there are none.
@@ -21,8 +21,8 @@ impl Ties {
         Ties { time: f64::NAN, heap: BinaryHeap::new() }
     }
 
-    /// The seat of the first of the events at `time` (s), the queue's earliest, which several seats have; `order` is that of
-    /// a seat's event.
+    /// The slot of the first of the events at `time` (s), the queue's earliest, which several slots have; `order` is that of
+    /// a slot's event.
     #[cold]
     pub(crate) fn first(&mut self, queue: &Queue, time: f64, order: impl Fn(usize) -> EventOrder) -> usize {
         if self.time != time {
@@ -32,23 +32,23 @@ impl Ties {
             if self.heap.is_empty() {
                 self.collect(queue, time, &order);
             }
-            let &Reverse((known, seat)) = self.heap.peek().expect("the earliest time is some seat's");
-            let seat = seat as usize;
-            let due = queue.time_of(seat) == time;
-            let now = order(seat);
+            let &Reverse((known, slot)) = self.heap.peek().expect("the earliest time is some slot's");
+            let slot = slot as usize;
+            let due = queue.time_of(slot) == time;
+            let now = order(slot);
             if due && now == known {
-                return seat;
+                return slot;
             }
             self.heap.pop();
             if due {
-                self.heap.push(Reverse((now, seat as u32)));
+                self.heap.push(Reverse((now, slot as u32)));
             }
         }
     }
 
     fn collect(&mut self, queue: &Queue, time: f64, order: &impl Fn(usize) -> EventOrder) {
         let mut ties = Vec::new();
-        queue.each_at(time, |seat| ties.push(Reverse((order(seat), seat as u32))));
+        queue.each_at(time, |slot| ties.push(Reverse((order(slot), slot as u32))));
         *self = Ties { time, heap: ties.into() };
     }
 
@@ -59,7 +59,7 @@ impl Ties {
     }
 
     /// Enters an event at the time of those that are known here.
-    pub(crate) fn enter(&mut self, seat: usize, order: EventOrder) {
-        self.heap.push(Reverse((order, seat as u32)));
+    pub(crate) fn enter(&mut self, slot: usize, order: EventOrder) {
+        self.heap.push(Reverse((order, slot as u32)));
     }
 }

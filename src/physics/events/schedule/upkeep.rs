@@ -24,7 +24,7 @@ const CROSSING: f64 = 32.0;
 const STAYS_OUT: f64 = 4.0;
 
 impl<D: Detector> Schedule<D> {
-    /// Asks whether the cells still fit, changes them if they do not, and seats the spheres anew after many crossings.
+    /// Asks whether the cells still fit, changes them if they do not, and reorders the records after many crossings.
     pub(crate) fn review(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests) {
         self.wear.pairs = 0;
         let Some(cells) = &self.cells else { return };
@@ -39,12 +39,12 @@ impl<D: Detector> Schedule<D> {
         }
         if self.wear.has_many_crossings() {
             self.sort_out_loose(model, trajectories, rests);
-            self.reseat(trajectories, rests);
+            self.order_by_cells(trajectories, rests);
             self.wear = Wear::new(model.len(), trajectories.now);
         }
     }
 
-    /// Lays out cells for the spheres as they are, and seats the spheres; nothing is predicted.
+    /// Lays out cells for the spheres as they are, and orders the records by them; nothing is predicted.
     pub(crate) fn lay_out(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests) {
         let layout = best_layout(trajectories);
         self.fill_cells(model, trajectories, rests, layout);
@@ -52,25 +52,26 @@ impl<D: Detector> Schedule<D> {
 
     fn fill_cells(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, layout: Layout) {
         let cells = Cells::new(model, layout);
-        for seat in 0..trajectories.records.len() {
-            let record = &trajectories.records[seat];
-            let out = record.line.r > cells.widest() || self.roams(model, trajectories, record, cells.edge(), 1.0);
-            let spot = if out { CellRef::LOOSE } else { cells.spot(trajectories.path_from(seat).x) };
-            trajectories.records[seat].spot = spot;
+        for slot in 0..trajectories.records.len() {
+            let record = &trajectories.records[slot];
+            let out =
+                record.trajectory.r > cells.widest() || self.roams(model, trajectories, record, cells.edge(), 1.0);
+            let cell = if out { CellRef::LOOSE } else { cells.cell_of(trajectories.path_from(slot).x) };
+            trajectories.records[slot].cell = cell;
         }
         self.cells = Some(Box::new(cells));
-        self.reseat(trajectories, rests);
+        self.order_by_cells(trajectories, rests);
     }
 
     /// Whether a sphere has crossed, or would have, so many cells of this edge (m) since its motion last changed that looking at all
     /// spheres once and being looked at by all is no more work; `times` that many.
     fn roams(&self, model: &Model, trajectories: &Trajectories, record: &Record, edge: f64, times: f64) -> bool {
         let now = trajectories.now;
-        let (alone, span) = (now - record.line.t, now - self.wear.since);
+        let (alone, span) = (now - record.trajectory.t, now - self.wear.since);
         if alone <= 0.0 || span <= 0.0 {
             return false;
         }
-        let v = record.line.path(trajectories.acceleration(record.sphere as usize), now).v;
+        let v = record.trajectory.path(trajectories.acceleration(record.sphere as usize), now).v;
         let crossings = (v * (alone / edge)).abs().element_sum();
         let all = (model.len() + model.faces.len()) as f64;
         // looks around by others while it was alone
@@ -81,54 +82,54 @@ impl<D: Detector> Schedule<D> {
     /// Takes spheres out of the cells that roam, and enters those again that do no longer.
     fn sort_out_loose(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests) {
         for i in 0..model.len() {
-            let seat = trajectories.seat(i);
-            let (record, Some(cells)) = (&trajectories.records[seat], &self.cells) else { return };
-            if record.line.r > cells.widest() {
+            let slot = trajectories.slot(i);
+            let (record, Some(cells)) = (&trajectories.records[slot], &self.cells) else { return };
+            if record.trajectory.r > cells.widest() {
                 continue;
             }
-            let is_out = record.spot.is_loose();
+            let is_out = record.cell.is_loose();
             let times = if is_out { STAYS_OUT } else { 1.0 };
             let out = self.roams(model, trajectories, record, cells.edge(), times);
             if out != is_out {
-                let spot = if out { CellRef::LOOSE } else { cells.spot(trajectories.path_from(seat).x) };
-                self.put(trajectories, seat, spot);
-                self.predict(model, trajectories, rests, seat);
+                let cell = if out { CellRef::LOOSE } else { cells.cell_of(trajectories.path_from(slot).x) };
+                self.put(trajectories, slot, cell);
+                self.predict(model, trajectories, rests, slot);
             }
         }
     }
 
     /// A sphere in no cell is in one again as soon as something has happened to it.
     #[inline(always)]
-    pub(super) fn catch(&mut self, trajectories: &mut Trajectories, seat: usize) {
-        if trajectories.records[seat].spot.is_loose() {
-            self.catch_loose(trajectories, seat);
+    pub(super) fn catch(&mut self, trajectories: &mut Trajectories, slot: usize) {
+        if trajectories.records[slot].cell.is_loose() {
+            self.catch_loose(trajectories, slot);
         }
     }
 
     #[cold]
-    fn catch_loose(&mut self, trajectories: &mut Trajectories, seat: usize) {
-        let line = trajectories.records[seat].line;
+    fn catch_loose(&mut self, trajectories: &mut Trajectories, slot: usize) {
+        let line = trajectories.records[slot].trajectory;
         let Some(cells) = &self.cells else { return };
         if line.t == trajectories.now && line.r <= cells.widest() {
-            let spot = cells.spot(line.x);
-            self.put(trajectories, seat, spot);
+            let cell = cells.cell_of(line.x);
+            self.put(trajectories, slot, cell);
         }
     }
 
-    fn put(&mut self, trajectories: &mut Trajectories, seat: usize, spot: CellRef) {
-        let seats = trajectories.records.len();
-        let (record, Some(cells)) = (&mut trajectories.records[seat], &mut self.cells) else { return };
-        cells.leave(seat, record.spot.place);
-        cells.enter(seat, spot.place, seats);
-        record.spot = spot;
+    fn put(&mut self, trajectories: &mut Trajectories, slot: usize, cell: CellRef) {
+        let slots = trajectories.records.len();
+        let (record, Some(cells)) = (&mut trajectories.records[slot], &mut self.cells) else { return };
+        cells.leave(slot, record.cell.index);
+        cells.enter(slot, cell.index, slots);
+        record.cell = cell;
     }
 }
 
 /// Where the spheres in cells are, m; where all are if none is in a cell.
 fn positions(trajectories: &Trajectories) -> Vec<DVec3> {
-    let at = |seat: usize| trajectories.path_from(seat).x;
+    let at = |slot: usize| trajectories.path_from(slot).x;
     let records = &trajectories.records;
-    let kept: Vec<DVec3> = (0..records.len()).filter(|&seat| !records[seat].spot.is_loose()).map(at).collect();
+    let kept: Vec<DVec3> = (0..records.len()).filter(|&slot| !records[slot].cell.is_loose()).map(at).collect();
     if kept.is_empty() { (0..records.len()).map(at).collect() } else { kept }
 }
 
@@ -140,6 +141,6 @@ fn misfits(cells: &Cells, trajectories: &Trajectories) -> bool {
 
 fn best_layout(trajectories: &Trajectories) -> Layout {
     let x = positions(trajectories);
-    let radii: Vec<f64> = trajectories.records.iter().map(|record| record.line.r).collect();
+    let radii: Vec<f64> = trajectories.records.iter().map(|record| record.trajectory.r).collect();
     Layout::new(&x, widest_in_table(&x, &radii))
 }

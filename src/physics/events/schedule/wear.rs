@@ -1,6 +1,6 @@
 //! Counted work that wears out the cells: after enough of it they are reviewed.
 
-/// Crossings per sphere after which the spheres are seated anew: they have gone some cells from their seats by then.
+/// Crossings per sphere after which the records are reordered: they have gone some cells from their neighbours in memory by then.
 const CROSSINGS: u64 = 3;
 
 /// Looks at a pair per sphere after which it is asked whether smaller cells would spare some.
@@ -46,7 +46,7 @@ impl Wear {
         self.has_many_crossings() | (self.pairs > self.most[1])
     }
 
-    /// Whether the spheres have gone so far from their seats that they should be seated anew.
+    /// Whether the spheres have gone so far from their neighbours in memory that they should be reordered.
     #[inline(always)]
     pub(crate) fn has_many_crossings(&self) -> bool {
         self.crossings > self.most[0]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Cells, OUTERMOST, SLOTS, WALLS};
+use super::{Cells, ENTRIES, OUTERMOST, WALLS};
 use crate::physics::events::record::CellCoordinates;
 use crate::physics::model::Model;
 use crate::physics::wall::Face;
@@ -31,8 +31,8 @@ impl Cells {
             let n = face.normal.abs();
             let slab = Slab {
                 face,
-                low: self.cube_of(bounds.min),
-                high: self.cube_of(bounds.max),
+                low: self.coordinates_of(bounds.min),
+                high: self.coordinates_of(bounds.max),
                 steep: (0..3).fold(0, |best, axis| if n[axis] > n[best] { axis } else { best }),
                 // half the cube's extent along the wall's normal, and what a sphere adds
                 half: 0.5 * self.edge * (n.x + n.y + n.z) * MARGIN + reach,
@@ -41,15 +41,15 @@ impl Cells {
         }
         near.sort_unstable();
         near.dedup();
-        self.starts = vec![0; self.places.len() + 1];
+        self.starts = vec![0; self.table.len() + 1];
         for &(place, _) in &near {
             self.starts[place as usize + 1] += 1;
         }
-        for place in 0..self.places.len() {
+        for place in 0..self.table.len() {
             self.starts[place + 1] += self.starts[place];
         }
         for &(place, _) in &near {
-            self.places[place as usize].0[SLOTS] |= WALLS;
+            self.table[place as usize].0[ENTRIES] |= WALLS;
         }
         self.walls = near.into_iter().map(|(_, wall)| wall).collect();
     }
@@ -78,7 +78,7 @@ impl Cells {
                 let (from, to) = if whole { (low[steep], high[steep]) } else { self.column(slab, cube) };
                 for s in range(steep, from, to) {
                     cube[steep] = s;
-                    found(self.place(cube));
+                    found(self.index_of(cube));
                 }
             }
         }
