@@ -37,7 +37,10 @@ impl Mechanics {
         }
         match self.verdict(model, log, &contact, since) {
             Verdict::Collide => self.collide(model, log, &contact),
-            Verdict::Rest(_) if self.trajectories.is_rounding_approach(&contact) => {
+            // an island that takes that back brings it again: the two are solved together then
+            Verdict::Rest(_)
+                if self.trajectories.is_rounding_approach(&contact) && !self.impacts.instant.is_stuck(key) =>
+            {
                 self.reflect_rounding_approach(model, &contact);
                 self.break_rests(model, log, key)
             }

@@ -42,6 +42,9 @@ const SHARE: u32 = 100;
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Instant {
+    /// When it began, s. At the clock's zero, which resolves any time, what follows within rounding of the time that
+    /// matters first belongs to it too.
+    began: f64,
     pub(super) events: u64,
     /// What they count, and those of this stretch, which began at the time `since`, s.
     spent: u64,
@@ -51,7 +54,7 @@ pub(super) struct Instant {
     chain: BTreeMap<Key, (u32, f64)>,
     /// Whether one of them has collapsed.
     collapsed: bool,
-    /// How often each contact has opened.
+    /// How often each contact has opened, or approached by rounding.
     releases: BTreeMap<Key, u32>,
 }
 
@@ -82,8 +85,8 @@ impl Instant {
         self.has_collapsed(contact.key)
     }
 
-    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
-    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    /// Whether a contact that opens, or approaches by rounding, has done so too often at this instant: each time brings back
+    /// another contact of its island, which brings back this one. Held together for a moment, they are solved together.
     pub(crate) fn is_stuck(&mut self, key: Key) -> bool {
         let count = self.releases.entry(key).or_default();
         *count += 1;
@@ -101,8 +104,10 @@ impl Instant {
 
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, trajectories: &mut Trajectories, time: f64) -> Result<(), Stall> {
-        if time > trajectories.now {
-            trajectories.now = time;
+        let clock_ulp = trajectories.clock_ulp();
+        trajectories.now = trajectories.now.max(time);
+        if time - self.began >= clock_ulp {
+            self.began = time;
             (self.events, self.spent, self.collapsed) = (0, 0, false);
             if !self.chain.is_empty() || !self.releases.is_empty() {
                 self.chain.clear();

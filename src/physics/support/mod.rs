@@ -25,7 +25,7 @@ mod resting;
 mod solution;
 mod solve;
 
-pub use equality::bind;
+pub use equality::{bind, restore};
 pub use island::{Island, islands};
 pub use problem::Row;
 pub use resting::{Bodies, Fate, Held, Resting, Surface, accelerations, hold, velocities};

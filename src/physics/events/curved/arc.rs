@@ -173,6 +173,11 @@ impl Arc {
         self.start.bodies.iter().enumerate().map(of).fold(left, f64::min)
     }
 
+    /// Accelerations (m/s²), by body, of the chord that begins at `from` of the arc and is `h` long, s.
+    pub(crate) fn chord_accelerations(&self, from: f64, h: f64) -> Vec<DVec3> {
+        (0..self.start.bodies.len()).map(|i| self.polynomial(i).chord_acceleration(from, h)).collect()
+    }
+
     /// The path of one body.
     fn polynomial(&self, i: usize) -> Hermite {
         let (start, end, h) = (&self.start.bodies[i], &self.end.bodies[i], self.span);

@@ -83,10 +83,11 @@ impl Mechanics {
     /// Sends the spheres along a chord, and gives it to their island.
     fn set_chord(&mut self, spheres: &[usize], curve: Curve) {
         let h = curve.length;
-        for ((&i, start), end) in spheres.iter().zip(curve.at(0.0)).zip(curve.at(h)) {
+        let accelerations = curve.arc.chord_accelerations(curve.offset, h);
+        for ((&i, start), a) in spheres.iter().zip(curve.at(0.0)).zip(accelerations) {
             self.trajectories.rewrite(i, start.x, start.v);
             if h > 0.0 {
-                self.trajectories.accelerate(i, (end.x - start.x - start.v * h) * (2.0 / (h * h)));
+                self.trajectories.accelerate(i, a);
             }
         }
         let until = (self.trajectories.now + h).max(self.trajectories.now.next_up());
