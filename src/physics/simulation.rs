@@ -205,7 +205,7 @@ impl Simulation {
         self.now().energy(&self.model)
     }
 
-    /// The same at t = 0, J.
+    /// Σ ½ m v² − m g·x − F·x at t = 0, J.
     pub fn initial_energy(&self) -> f64 {
         self.initial_energy
     }

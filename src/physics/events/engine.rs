@@ -119,7 +119,7 @@ impl<D: Detector> EventDriven<D> {
         }
     }
 
-    /// Goes on for about `work` events, telling nobody; whether everything up to `until` (s) has happened, or nothing more
+    /// Goes on for about `work` events without keeping what they tell; whether everything up to `until` (s) has happened, or nothing more
     /// can.
     pub(super) fn repeat(&mut self, model: &Model, log: &mut Log, until: f64, work: u64) -> bool {
         for _ in 0..work {

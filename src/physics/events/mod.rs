@@ -41,7 +41,7 @@ mod record;
 mod rest_criteria;
 pub(super) mod rest_reason;
 pub(super) mod resumable;
-mod rounding;
+pub(super) mod rounding;
 mod rub;
 mod schedule;
 mod squeezed;

@@ -1,5 +1,6 @@
-//! Two spheres strike the way nearly all do in a gas: nothing rests, the same accelerates both, they approach faster than
-//! what may rest. It is what the general way (`impact`) makes of such a pair, bit for bit, with each record read once.
+//! Fast path of an impact: two free spheres of equal acceleration that approach faster than what may rest, nothing being at
+//! rest in the scene, as nearly all pairs of a gas do. Same bits as the general impact (`impact`), with each record read
+//! once.
 
 use super::contact_state::ContactState;
 use super::impact::note;
@@ -15,8 +16,9 @@ use crate::physics::state::Stall;
 
 /// Two spheres that touch now, the one of the lower index first.
 struct PlainPair {
+    /// Where their records are.
     slots: [usize; 2],
-    /// At the present.
+    /// Their trajectories, at the present.
     lines: [Trajectory; 2],
     /// When the motion of either last changed, s.
     since: f64,
@@ -24,8 +26,7 @@ struct PlainPair {
 }
 
 impl PlainPair {
-    /// The pair that the sphere at a slot planned to meet, as
-    /// [`Trajectories::contact_state`] sees it; none if what
+    /// The pair that the sphere at a slot planned to meet, as [`Trajectories::contact_state`] sees it; none if what
     /// accelerates them differs.
     #[inline(always)]
     fn new(trajectories: &Trajectories, slot: usize, plan: &Plan) -> Option<PlainPair> {

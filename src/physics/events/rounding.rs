@@ -11,6 +11,7 @@
 //! | [`SUM`] | velocities, accelerations | 1 ulp a summand | contacts that hold let go, and again | slow motion stops |
 //! | [`BRUSH`] | an approach between two that open | 2 ulp of the speed | two contacts take turns for ever | soft impacts lose nothing |
 //! | [`CHAIN`] | approaches after a long chain | 1000 ulp of the speed | a collapse is not seen to end | a chain ends early |
+//! | [`CLOSING`] | an approach that a look sees | 2 ulp of the speeds | three in a row push the middle one for ever | slow approaches are seen late |
 //! | [`LOST`] | an impact's change of speed | 10 ulp of the speed | loops count as chains | chains count as loops |
 //! | [`DRIVEN`] | an approach of two that rest | 1e-15 of the speed | rests break by rounding | soft blows break no rest |
 //! | [`WEDGE`] | the way out between two walls | 2 ulp | a sphere that just fits bounces for ever | a narrow wedge holds |
@@ -31,6 +32,9 @@ pub(crate) const SUM: f64 = 256.0 * f64::EPSILON;
 
 /// Approaches below this share of the speeds are rounding where the contact is about to open: 8 ulp.
 pub(crate) const BRUSH: f64 = 8.0 * f64::EPSILON;
+
+/// Normal velocities that a look sees are rounding below this share of the bodies' speeds: 64 ulp.
+pub(crate) const CLOSING: f64 = 64.0 * f64::EPSILON;
 
 /// Below this share of the fastest approach of a chain, or of the speeds of its bodies, an approach is what the rounding of
 /// a thousand impacts may have made: 4096 ulp.

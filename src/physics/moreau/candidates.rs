@@ -1,6 +1,6 @@
 //! Which bodies may touch within the frame: spheres grown by how far they may move.
 //!
-//! Cells serve the many that move about as far as they are wide; the few that move farther are compared with everybody,
+//! Cells serve the many that move about as far as they are wide; the few that move farther are compared with all spheres,
 //! so that one fast sphere does not make every cell as wide as its way.
 
 use std::cell::Cell;
@@ -39,7 +39,7 @@ enum Stage {
     Walls(usize),
     /// Measures distances in cells, from this one on.
     Cells(usize),
-    /// Compares the far-reaching spheres (all, without cells) with everybody, from this one on.
+    /// Compares the far-reaching spheres (all, without cells) with all spheres, from this one on.
     Far(usize),
     /// All are found.
     Done,
@@ -52,7 +52,7 @@ pub(super) struct Search {
     pub(super) found: Vec<Key>,
     /// Radius and the way a sphere may go in the frame, m, by sphere.
     reach: Vec<f64>,
-    /// The reach as the cells see it; no number for those compared with everybody.
+    /// The reach as the cells see it; no number for those compared with all.
     near: Vec<f64>,
     far: Vec<usize>,
     cells: Option<Cells>,
@@ -187,7 +187,7 @@ impl Search {
         distances + (to - from) as u64 / 4
     }
 
-    /// One far-reaching sphere with everybody; pairs of two such are met once, from the lower index.
+    /// One far-reaching sphere with all spheres; pairs of two such are met once, from the lower index.
     fn far_pairs(&mut self, x: &[DVec3], from: usize) -> u64 {
         let Some(&i) = self.far.get(from) else {
             self.found.sort_unstable();

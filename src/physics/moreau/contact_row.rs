@@ -23,7 +23,7 @@ const LARGEST_TOLERANCE: f64 = 0.1;
 /// Share of the tolerance by which a row may be missed at most, as a way over the size of the bodies.
 const MOST_SLACK: f64 = 0.5;
 
-/// The same of a gap or overlap that is not corrected.
+/// Share of the tolerance that a gap or overlap may have and not be corrected, as a length over the size of the bodies.
 const MOST_STILL: f64 = 0.25;
 
 /// Relative size of what rounding leaves of a row: what the tolerance cannot go below.
@@ -41,7 +41,7 @@ const GRAZING_STEPS: usize = 64;
 /// Square of the difference of two normals up to which walls count as touched at one point.
 const ONE_POINT: f64 = 1e-10;
 
-/// The same up to which their mean touches both: it is off by an eighth of this, in radii, less than [`TOUCHING`].
+/// Square of the difference of two normals up to which their mean touches both: it is off by an eighth of this, in radii, less than [`TOUCHING`].
 const ONE_CRACK: f64 = 1e-12;
 
 /// Gap over the size of the bodies from which they count as touching.
@@ -167,7 +167,7 @@ impl<'a> Path<'a> {
         Some(Meeting { normal, way: gap - t * normal.dot(self.velocity), time: t, face: false })
     }
 
-    /// The same of a sphere and a wall; none if a plane has all of the wall behind it and all of the path before it. Over
+    /// How a sphere and a wall meet; none if a plane has all of the wall behind it and all of the path before it. Over
     /// faces, what is closer than `near` (m) at the start, if that is given, counts as near.
     pub(super) fn wall_meeting(&self, near: Option<f64>, allowance: Allowance) -> Option<Meeting> {
         let (face, r) = (&self.model.faces[self.key.2], self.size());

@@ -212,7 +212,7 @@ impl Moreau {
         Ok(())
     }
 
-    /// The rows are solved: whoever moves farther than was looked for is searched for again.
+    /// The rows are solved: spheres that move farther than was looked for are searched for again.
     fn look_again(&mut self, model: &Model, round: usize) {
         let h = self.settings.dt;
         self.solver.read_impulses(&mut self.rows);

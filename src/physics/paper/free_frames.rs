@@ -83,7 +83,7 @@ impl Paper {
         }
     }
 
-    /// The same for a single sphere.
+    /// Frames of a single sphere: how many, and whether the last trial state, not counted, needs a closer look.
     fn one_flies<F: Flight, const WALLS: bool>(&mut self, flight: F, model: &Model, leg: Leg) -> (u64, bool) {
         let mut now = Point { x: self.end.x[0], v: self.end.v[0], t: self.end.t };
         let (mut frames, mut one_by_one) = (0, 0);
@@ -154,7 +154,7 @@ impl Point {
 /// meets one is flown again frame by frame, so it had better be short beside the way between two impacts.
 const BLOCK: u64 = 64;
 
-/// The same without walls.
+/// Frames of a single sphere flown before anything is asked, where there are no walls.
 const LONG_BLOCK: u64 = 4096;
 
 /// A block of frames; none if any of them has to be looked at, or reaches the goal. What is no number stays so, and a

@@ -26,7 +26,7 @@
 //! - Several contacts of a sphere in one frame are all answered from its velocity before any of them, as printed. Their
 //!   sum can create energy: two light spheres struck at once by a third each take what one alone would take.
 //!
-//! [`DEVIATIONS`] says all this to people who ask what the method is.
+//! [`DEVIATIONS`] says all this in `carom methods`.
 //!
 //! A contact that is already deeper than the tolerance when a frame begins (the tolerance was lowered) may stay as
 //! deep as it is until it separates. All that follows is a function of t, x, v, the pending impulses and the settings,

@@ -37,7 +37,7 @@ impl Paper {
         Stall { time, kind: "step-too-small", reason }
     }
 
-    /// The frame in which a sphere leaves the range of numbers is given up, so that nobody sees it.
+    /// The frame in which a sphere leaves the range of numbers is given up before it is shown.
     fn quarantine(&mut self, model: &Model) -> Option<Stall> {
         self.residue = 0.0;
         let State { x, v, .. } = &self.end;

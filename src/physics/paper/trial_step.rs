@@ -32,7 +32,8 @@ pub(super) fn fly<F: Flight>(flight: F, start: &State, end: &mut State, range: R
     residue.element_sum()
 }
 
-/// The same for the spheres on which more acts than always does.
+/// Applies this frame's impulses and support forces: `Forward(h)` of the spheres that have any. Returns 0 if all their new
+/// positions are finite, else NaN.
 fn kick(model: &Model, kicks: &[Kick], start: &State, end: &mut State, h: f64) -> f64 {
     let mut residue = 0.0;
     for kick in kicks {

@@ -1,4 +1,4 @@
-//! The solvers against each other: u is unique, so whoever solves an island must find the same.
+//! The solvers against each other: u is unique, so that every solver of an island must find the same.
 
 use glam::DVec3;
 

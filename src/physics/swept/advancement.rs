@@ -14,6 +14,7 @@ use std::cell::{Cell, RefCell};
 use super::separation::{Gap, Pair, Separation, Wall};
 use crate::physics::contact::Probe;
 use crate::physics::events::detector::{Detector, Due, Span};
+use crate::physics::events::rounding::{CLOSING, HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Settings;
 use crate::physics::path::Path;
@@ -25,12 +26,6 @@ const LARGEST_TOLERANCE: f64 = 0.5;
 
 /// Gaps up to this many radii are looked at to the end, wider ones when they have become so.
 const NEAR: f64 = 1e-3;
-
-/// Hops no higher than this, relative to the coordinates, are rounding: 4 ulp.
-const HOP: f64 = 4.0 * f64::EPSILON;
-
-/// Normal velocities below this share of the bodies' speeds are rounding: 64 ulp.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Looks at two bodies after which the search is interrupted, to go on from there.
 const PATIENCE: usize = 200;
@@ -179,7 +174,7 @@ fn wide_step(seen: Gap, near: f64) -> Option<f64> {
 /// Whether the gap is about to shrink. Where only rounding says so, what presses decides: of three spheres in a row that
 /// have stopped approaching each other, rounding would otherwise have the outer two push the middle one to and fro.
 fn closes(bodies: &impl Separation, s: f64, seen: Gap) -> bool {
-    seen.v_n < 0.0 && seen.v_n < -ROUNDING * bodies.speed(s) || seen.v_n <= 0.0 && bodies.acceleration(s) < 0.0
+    seen.v_n < 0.0 && seen.v_n < -CLOSING * bodies.speed(s) || seen.v_n <= 0.0 && bodies.acceleration(s) < 0.0
 }
 
 /// The shortest step worth a look `s` seconds from now, s: one that the clock can tell from none, and in which what moves

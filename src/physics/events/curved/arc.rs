@@ -7,9 +7,9 @@
 //! of both its ends (Hermite). Its error, |x⁽⁶⁾| h⁶/46080, bounds the step to [`TOLERANCE`]; the integration is then far
 //! below rounding, and reading the path costs next to nothing.
 //!
-//! Everybody else sees chord parabolas x₀ + v₀ s + a s²/2 with a = 2 (x_h − x₀ − v₀ h)/h², laid along the arc one after
-//! another: a chord departs from the path by |jerk| h³/40, which must stay below [`DEPARTURE`], so that contact times
-//! with other bodies are predicted as in flight.
+//! Spheres outside the island see chord parabolas x₀ + v₀ s + a s²/2 with a = 2 (x_h − x₀ − v₀ h)/h², laid along the arc
+//! one after another: a chord departs from the path by |jerk| h³/40, which must stay below [`DEPARTURE`], so that contact
+//! times with other bodies are predicted as in flight.
 
 use glam::DVec3;
 
@@ -24,7 +24,7 @@ const TOLERANCE: f64 = 1e-15;
 /// no less than [`FINEST`].
 const DEPARTURE: f64 = 1e-13;
 
-/// The same in coordinates: 16 ulp.
+/// Least departure of a chord from the path, relative to the coordinates: 16 ulp.
 const FINEST: f64 = 16.0 * f64::EPSILON;
 
 /// Length of the first arc, in units of the time in which the motion changes.

@@ -64,7 +64,7 @@ impl<'a> ConstrainedMotion<'a> {
         self.stepped(start, h, &STAGES, &ORDER_8)
     }
 
-    /// The same by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
+    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
     /// rounding.
     pub(crate) fn step_rk4(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &CLASSICAL, &ORDER_4)

@@ -18,8 +18,9 @@ impl Rests {
     /// The contacts of an island carry these forces (N) from `now` (s) on.
     pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64], now: f64) {
         for (key, &force) in keys.iter().zip(forces) {
-            let Some(held) = self.held.get_mut(key) else { continue };
-            held.load.since = held.load.since.max(self.frame_start);
+            let frame_start = self.frame_start;
+            let held = self.kept_mut(*key);
+            held.load.since = held.load.since.max(frame_start);
             held.load = Load { force, since: now, impulse: held.load.given(now) };
         }
     }

@@ -142,7 +142,7 @@ impl Curve {
         self.arc.at(self.offset + time.min(self.length))
     }
 
-    /// The same, integrated.
+    /// The spheres `time` (s) after the chord's beginning, integrated.
     pub(crate) fn real(&self, model: &Model, time: f64) -> Vec<Body> {
         self.arc.real(self.offset + time.min(self.length), &closed(model, &self.contacts))
     }
@@ -185,6 +185,16 @@ impl Rests {
     /// Why a contact rests; none if it does not.
     pub(crate) fn reason(&self, key: Key) -> Option<RestReason> {
         self.held.get(&key).filter(|held| held.announced).map(|held| held.reason)
+    }
+
+    /// A contact that rests, or is about to.
+    pub(super) fn kept(&self, key: Key) -> &RestingContact {
+        self.held.get(&key).expect("what is listed by sphere is kept")
+    }
+
+    /// A contact that rests, or is about to, to be changed.
+    pub(super) fn kept_mut(&mut self, key: Key) -> &mut RestingContact {
+        self.held.get_mut(&key).expect("what is listed by sphere is kept")
     }
 
     /// Whether nothing rests.
@@ -305,16 +315,12 @@ impl Rests {
 
     /// Has bounces that were summed up act on a contact when they are over.
     pub(crate) fn rub(&mut self, key: Key, rub: Rub) {
-        if let Some(held) = self.held.get_mut(&key) {
-            held.rub = Some(rub);
-        }
+        self.kept_mut(key).rub = Some(rub);
     }
 
     /// Holds a contact that opens until `time` (s) all the same.
     pub(super) fn hold_until(&mut self, key: Key, time: f64) {
-        if let Some(held) = self.held.get_mut(&key) {
-            held.settles_at = time;
-        }
+        self.kept_mut(key).settles_at = time;
     }
 
     /// The spheres of every island that a dirty sphere belongs or is connected to, ascending.

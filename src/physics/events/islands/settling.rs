@@ -71,9 +71,7 @@ impl Mechanics {
             let path = self.trajectories.path(i, now);
             for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
                 let part = part_ahead(&model.faces[key.2], path.x, path.v, path.a, model.radii[i]);
-                if let Some(held) = self.rests.held.get_mut(&key) {
-                    held.part = part;
-                }
+                self.rests.kept_mut(key).part = part;
             }
         }
         self.rests.dirty.push(leader);
@@ -150,7 +148,7 @@ impl Mechanics {
         let r = model.radii[i];
         let shared = |wall: usize, part: Part| touch_part(&model.faces[wall], part, path.x, r);
         let held: Vec<(usize, Touch)> = (self.rests.of[i].iter().filter(|key| key.0 == Kind::Wall))
-            .filter_map(|key| Some((key.2, shared(key.2, self.rests.held.get(key)?.part))))
+            .map(|&key| (key.2, shared(key.2, self.rests.kept(key).part)))
             .collect();
         let size = path.x.abs().max_element().max(r);
         let open = held.iter().map(|(_, at)| at.gap).fold(0.0, f64::max);
@@ -227,9 +225,8 @@ impl Mechanics {
     fn rub_off(&mut self, model: &Model, keys: &[Key]) {
         for &key in keys {
             let due = |held: &&mut RestingContact| held.settles_at <= self.trajectories.now;
-            let Some(rub) = self.rests.held.get_mut(&key).filter(due).and_then(|held| held.rub.take()) else {
-                continue;
-            };
+            let held = Some(self.rests.kept_mut(key));
+            let Some(rub) = held.filter(due).and_then(|held| held.rub.take()) else { continue };
             let (normal, line) =
                 (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(key.1));
             self.trajectories.rewrite(key.1, line.x, rub.end(line.v, normal));
@@ -238,14 +235,14 @@ impl Mechanics {
 
     /// When the first series of bounces of these contacts that was summed up is over, s.
     fn rubbing_time(&self, keys: &[Key]) -> f64 {
-        let held = keys.iter().filter_map(|key| self.rests.held.get(key)).filter(|held| held.rub.is_some());
+        let held = keys.iter().map(|&key| self.rests.kept(key)).filter(|held| held.rub.is_some());
         held.map(|held| held.settles_at).filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
     }
 
     /// How much of its acceleration moves on a sphere whose only contact is one of bounces that were summed up.
     fn share_of_pull(&self, keys: &[Key]) -> f64 {
         let [key] = keys else { return 1.0 };
-        self.rests.held.get(key).and_then(|held| held.rub).map_or(1.0, |rub| rub.share)
+        self.rests.kept(*key).rub.map_or(1.0, |rub| rub.share)
     }
 
     /// How long contacts that keep being released and found again at one instant are held all the same, s: a moment in
@@ -264,7 +261,7 @@ impl Mechanics {
         let place = |i: usize| spheres.partition_point(|&other| other < i);
         let contact = |&key: &Key| {
             let (kind, a, b) = key;
-            let part = self.rests.held.get(&key).map_or(Part::Face, |held| held.part);
+            let part = self.rests.kept(key).part;
             let other = if kind == Kind::Wall { Other::Wall(b, part) } else { Other::Place(place(b)) };
             IslandContact { a: place(a), other }
         };
@@ -278,7 +275,7 @@ impl Mechanics {
     fn write_rest_events(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
             let mut meeting = self.trajectories.contact_state(model, key);
-            let Some(held) = self.rests.held.get_mut(&key) else { continue };
+            let held = self.rests.kept_mut(key);
             let begins = settled.fate[index] == Fate::Loaded && !held.announced;
             // a contact whose bounces are summed up rests when they are over, unless more than a bounce stops it
             let bounces = !held.announced && held.settles_at > self.trajectories.now;
@@ -311,7 +308,7 @@ impl Mechanics {
 
     /// When the first of these contacts asks for its island to be settled again, s.
     fn settling_time(&self, keys: &[Key]) -> f64 {
-        let ends = keys.iter().filter_map(|key| self.rests.held.get(key)).map(|held| held.settles_at);
+        let ends = keys.iter().map(|&key| self.rests.kept(key)).map(|held| held.settles_at);
         ends.filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
     }
 

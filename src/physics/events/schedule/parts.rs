@@ -24,7 +24,7 @@ pub(crate) struct Schedule<D> {
     /// The earliest event and the slot it is entered for, as long as nothing has changed since it was looked up.
     pub(super) next: Option<(f64, usize)>,
     pub(super) ties: Ties,
-    /// Where neighbours are looked up; none for few spheres, who look at all others.
+    /// Where neighbours are looked up; none for few spheres: each looks at all others.
     pub(crate) cells: Option<Box<Cells>>,
     /// Scratch buffer for candidate lists.
     pub(super) candidates: Box<Candidates>,

@@ -179,7 +179,7 @@ impl MinTreeJob for Lookup<'_> {
     #[inline(always)]
     fn run(self, minimum: impl MinOfEight) -> (f64, u32) {
         let Queue { blocks, holders, .. } = self.queue;
-        let Some(root) = blocks.last() else { return (f64::INFINITY, TIED) };
+        let root = blocks.last().expect("a queue has one block at least");
         let (time, equal) = minimum.of(root);
         let first = equal.trailing_zeros();
         let holder = match holders.last() {

@@ -23,6 +23,9 @@ const CROSSING: f64 = 32.0;
 /// A sphere that is out stays out if it has roamed this much less than takes one out: none goes to and fro.
 const STAYS_OUT: f64 = 4.0;
 
+/// Why there are cells.
+const CELLS: &str = "a sphere is taken out of cells only where there are some";
+
 impl<D: Detector> Schedule<D> {
     /// Asks whether the cells still fit, changes them if they do not, and reorders the records after many crossings.
     pub(crate) fn review(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests) {
@@ -83,7 +86,7 @@ impl<D: Detector> Schedule<D> {
     fn sort_out_loose(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests) {
         for i in 0..model.len() {
             let slot = trajectories.slot(i);
-            let (record, Some(cells)) = (&trajectories.records[slot], &self.cells) else { return };
+            let (record, cells) = (&trajectories.records[slot], self.cells.as_ref().expect(CELLS));
             if record.trajectory.r > cells.widest() {
                 continue;
             }
@@ -109,7 +112,7 @@ impl<D: Detector> Schedule<D> {
     #[cold]
     fn catch_loose(&mut self, trajectories: &mut Trajectories, slot: usize) {
         let line = trajectories.records[slot].trajectory;
-        let Some(cells) = &self.cells else { return };
+        let cells = self.cells.as_ref().expect(CELLS);
         if line.t == trajectories.now && line.r <= cells.widest() {
             let cell = cells.cell_of(line.x);
             self.put(trajectories, slot, cell);
@@ -118,7 +121,7 @@ impl<D: Detector> Schedule<D> {
 
     fn put(&mut self, trajectories: &mut Trajectories, slot: usize, cell: CellRef) {
         let slots = trajectories.records.len();
-        let (record, Some(cells)) = (&mut trajectories.records[slot], &mut self.cells) else { return };
+        let (record, cells) = (&mut trajectories.records[slot], self.cells.as_mut().expect(CELLS));
         cells.leave(slot, record.cell.index);
         cells.enter(slot, cell.index, slots);
         record.cell = cell;

@@ -74,7 +74,7 @@ pub(crate) fn bounds(x: &[DVec3]) -> Bounds {
 /// spheres are.
 ///
 /// Judged by what a contact costs: a look at each sphere around and at each one that is kept out, a crossing, and a look
-/// at everybody as often as one of those kept out is struck, which grows with its cross-section.
+/// at all spheres as often as one of those kept out is struck, which grows with its cross-section.
 pub(crate) fn widest_in_table(x: &[DVec3], radii: &[f64]) -> f64 {
     let widest = radii.iter().copied().fold(0.0, f64::max);
     let least = radii.iter().copied().fold(f64::INFINITY, f64::min);
