@@ -255,7 +255,7 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// The contact that the sphere at a slot planned is due.
-    #[inline]
+    #[inline(always)]
     fn contact(&mut self, model: &Model, log: &mut Log, slot: usize) -> Result<(), Stall> {
         let EventDriven { schedule, mechanics, .. } = self;
         let Mechanics { trajectories, rests, .. } = mechanics;

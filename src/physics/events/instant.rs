@@ -103,6 +103,7 @@ impl Instant {
     }
 
     /// The clock goes on to `time`, s; says so if it does not for too many events.
+    #[inline(always)]
     pub(super) fn advance_clock(&mut self, trajectories: &mut Trajectories, time: f64) -> Result<(), Stall> {
         let clock_ulp = trajectories.clock_ulp();
         trajectories.now = trajectories.now.max(time);
@@ -133,6 +134,7 @@ impl Instant {
     }
 }
 
+#[cold]
 fn no_progress(now: f64) -> Stall {
     let reason = format!(
         "Events went on and on at t = {now} s without the clock advancing; set a larger rest_speed, or change the method from here."

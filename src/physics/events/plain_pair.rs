@@ -60,7 +60,7 @@ impl PlainPair {
 impl Mechanics {
     /// Lets the impact law act on the pair that the sphere at a slot planned to meet, if it is as plain as that; says
     /// whether it was, and both spheres have got new velocities.
-    #[inline]
+    #[inline(always)]
     pub(super) fn collide_plain_pair(
         &mut self,
         model: &Model,

@@ -79,7 +79,7 @@ impl<D: Detector> Schedule<D> {
 
     /// Enters the next event of the slot whose event is being handled, everything else being entered already: then it is
     /// known what comes next.
-    #[inline]
+    #[inline(always)]
     fn enter_due(&mut self, trajectories: &Trajectories, rests: &Rests, slot: usize) {
         let due = event_time(trajectories, rests, slot);
         self.next = self.queue.replace_first(slot, due);
