@@ -8,16 +8,17 @@ use super::log::Log;
 use super::model::{Method, Model, Settings};
 use super::state::{Stall, State};
 
-/// How far one call of [`Simulation::advance`] should go.
+/// How far one call of [`Simulation::advance`](crate::physics::Simulation::advance) should go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Until {
     /// Until the frame in progress is complete: what one single-step shows.
     Frame,
-    /// Until a frame ends at or after this time, s; read the state at the time itself with [`Simulation::at`].
+    /// Until a frame ends at or after this time, s; read the state at the time itself with
+    /// [`Simulation::at`](crate::physics::Simulation::at).
     Time(f64),
 }
 
-/// How a call of [`Simulation::advance`] ended.
+/// How a call of [`Simulation::advance`](crate::physics::Simulation::advance) ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Progress {
     /// The goal is reached.

@@ -41,7 +41,7 @@ pub struct Solution {
     pub rounding: Vec<f64>,
     /// λ of every contact, ≥ 0, N s or N.
     pub multipliers: Vec<f64>,
-    /// One report per island, in the order of [`islands`].
+    /// One report per island, in the order of [`islands`](super::islands).
     pub reports: Vec<Report>,
 }
 

@@ -1,4 +1,4 @@
-//! Rest: which contacts of an island hold, and how its spheres move until something changes.
+//! Equilibrium: which contacts of an island hold, and how its spheres move until something changes.
 //!
 //! Spheres that rest on faces move on parabolas that keep their distance: one face leaves two directions, a crease one,
 //! a corner none. Spheres that rest on each other, on edges or on corners do so too as long as the normals of those

@@ -29,9 +29,9 @@ pub(super) struct RestingContact {
     pub(super) reason: RestReason,
     /// v_n when it was added, m/s.
     pub(super) v_n: f64,
-    /// Until when ever smaller bounces go on in truth, or the contact is held against its will, s: its island is settled
-    /// again then, and no rest announced before.
+    /// Time (s) at which the island is solved again: end of a summed bounce series, or of a pause. No rest is told before.
     pub(super) settles_at: f64,
+    /// What it carries.
     pub(super) load: Load,
     /// What bounces that were summed up have done by `settles_at`.
     pub(super) rub: Option<Rub>,
@@ -40,9 +40,9 @@ pub(super) struct RestingContact {
 /// The support force of a resting contact, and what it has given since the frame began.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Load {
-    /// N, along the normal; of a curved rest that of its last settling.
+    /// Along the normal, N; of a curved rest when its island was last solved.
     pub(super) force: f64,
-    /// Since when, s.
+    /// Since when it has been that, s.
     pub(super) since: f64,
     /// What was given in this frame before that, N s.
     pub(super) impulse: f64,
@@ -62,17 +62,20 @@ pub(super) struct Island {
     pub(super) spheres: Vec<usize>,
     /// When its parabolas end, s.
     pub(super) end: f64,
+    /// How its spheres move if that is no parabola.
     pub(super) curve: Option<Curve>,
 }
 
 /// A curved motion, and the chord parabola that stands for it now.
 #[derive(Debug, Clone)]
 pub(crate) struct Curve {
+    /// The stretch of the motion that the chord belongs to.
     pub(super) arc: Shared<Arc>,
+    /// The contacts of the island.
     pub(super) contacts: Shared<[IslandContact]>,
     /// Where on the arc the chord begins, s.
     pub(super) offset: f64,
-    /// When the chord began, s; infinite once the spheres have been brought off it.
+    /// When the chord began, s; infinite once the spheres have left it.
     pub(crate) from: f64,
     /// Its length, s.
     pub(super) length: f64,
@@ -80,20 +83,26 @@ pub(crate) struct Curve {
     pub(super) changes: bool,
 }
 
-/// A contact of an island: its sphere by its place there, and what it touches.
+/// A contact of an island.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct IslandContact {
+    /// Its sphere, by the place in the island.
     pub(super) a: usize,
+    /// What that touches.
     pub(super) other: Other,
 }
 
+/// What a sphere of an island touches.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Other {
+    /// This part of a wall, by the wall's index.
     Wall(usize, Part),
+    /// Another sphere, by its place in the island.
     Place(usize),
 }
 
 impl IslandContact {
+    /// The contact as the solvers see it.
     pub(super) fn closed(self, model: &Model) -> Closed<'_> {
         let on = match self.other {
             Other::Wall(wall, part) => On::Wall(&model.faces[wall], part),
@@ -103,6 +112,7 @@ impl IslandContact {
     }
 }
 
+/// Contacts of an island as the solvers see them.
 pub(super) fn closed<'a>(model: &'a Model, contacts: &[IslandContact]) -> Vec<Closed<'a>> {
     contacts.iter().map(|contact| contact.closed(model)).collect()
 }
@@ -132,7 +142,7 @@ impl Curve {
         self
     }
 
-    /// Ends the chord after `time` (s), if that is sooner, to have the island settled anew.
+    /// Ends the chord after `time` (s), if that is sooner, to have the island solved again.
     pub(super) fn cut(self, time: f64) -> Curve {
         if time < self.length { Curve { length: time, changes: true, ..self } } else { self }
     }
@@ -148,30 +158,38 @@ impl Curve {
     }
 }
 
-/// A chord of this frame that is over: its spheres, and until when it was followed, s.
+/// A chord of this frame that is over.
 #[derive(Debug, Clone)]
 pub(super) struct Past {
+    /// The spheres that followed it.
     pub(super) spheres: Vec<usize>,
     pub(super) curve: Curve,
+    /// Until when they did, s.
     pub(super) until: f64,
 }
 
 /// All resting contacts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rests {
+    /// By the bodies that touch.
     pub(super) held: BTreeMap<Key, RestingContact>,
     /// Contacts by sphere; empty until something rests.
     pub(super) of: Vec<Vec<Key>>,
+    /// By number; none where a number is free.
     pub(super) islands: Vec<Option<Island>>,
+    /// Numbers that are free.
     pub(super) vacant: Vec<u32>,
+    /// The number of each sphere's island, or [`NONE`]; empty until something rests.
     pub(super) island_of: Vec<u32>,
-    /// Spheres whose islands must be settled before the clock goes on.
+    /// Spheres whose islands must be solved before the clock goes on.
     pub(super) dirty: Vec<usize>,
-    /// In the order of their ends.
+    /// Chords of this frame that are over, in the order of their ends.
     pub(super) past: Vec<Past>,
     /// When the frame under way began, s.
     pub(super) frame_start: f64,
+    /// Islands that move on a curve.
     curves: usize,
+    /// Since when that many do, s.
     curved_since: f64,
     curved_time: f64,
 }
@@ -219,7 +237,7 @@ impl Rests {
         self.of.get(i).map_or(0, Vec::len)
     }
 
-    /// Whether islands wait to be settled.
+    /// Whether islands wait to be solved.
     #[inline]
     pub(crate) fn is_dirty(&self) -> bool {
         !self.dirty.is_empty()

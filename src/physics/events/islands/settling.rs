@@ -1,4 +1,4 @@
-//! What an event does to the islands: spheres brought up to date, contacts released, islands settled anew.
+//! What events do to islands: rests end, chords follow each other, and islands that have changed are solved again.
 
 use std::collections::BTreeSet;
 
