@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use crate::physics::Model;
-use crate::physics::model::Face;
+use crate::physics::wall::Face;
 
 /// A wall as the judge measures it.
 #[derive(Debug, Clone, Copy)]

@@ -155,7 +155,7 @@ impl Findings {
         }
     }
 
-    /// The same if the value exceeds its bound, or is no number.
+    /// Adds a finding if the value exceeds its bound, or is no number.
     pub(super) fn hold(&mut self, fault: Fault, time: f64, bodies: Bodies, [value, bound]: [f64; 2]) {
         if value > bound || value.is_nan() {
             self.add(fault, time, bodies, [value, bound]);

@@ -7,9 +7,9 @@ use glam::DVec3;
 use crate::physics::contact::Key;
 use crate::physics::{Class, Contact, Kind, Method, Model, Settings};
 
-use super::Frame;
 use super::distance::Board;
 use super::finding::{Bodies, Fault, Findings};
+use super::frame::Frame;
 use super::promise::{Promise, ULPS};
 
 /// Share of its speed that a resting body may have along the normal: curved rest is integrated to 1e-12, and read between

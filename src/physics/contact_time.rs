@@ -10,150 +10,14 @@
 
 use glam::DVec3;
 
-use super::model::Face;
-use super::motion::normal_velocity;
-use super::parts::part_ahead;
+use super::impact_law::{normal_velocity, pair_normal_velocity};
+use super::path::Path;
+use super::wall::{Face, Touch, curvature, edge_direction, touch};
+use super::wall_parts::part_ahead;
 use crate::roots::{bound, bracketed, monotone, quadratic_fall, value};
 
 /// An approach that would go no deeper than this, relative to the coordinates, before it turns back is none: 8 ulp.
 const GRAZE: f64 = 8.0 * f64::EPSILON;
-
-/// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Path {
-    /// Where at t = 0, m.
-    pub x: DVec3,
-    /// Velocity at t = 0, m/s.
-    pub v: DVec3,
-    /// Acceleration, m/s².
-    pub a: DVec3,
-}
-
-impl Path {
-    /// Position at `t` (s), m.
-    #[inline]
-    pub fn at(&self, t: f64) -> DVec3 {
-        self.x + (self.v + self.a * (0.5 * t)) * t
-    }
-
-    /// Velocity at `t` (s), m/s.
-    #[inline]
-    pub fn velocity(&self, t: f64) -> DVec3 {
-        self.v + self.a * t
-    }
-
-    /// This path seen from `other`.
-    #[inline]
-    pub fn relative_to(&self, other: &Path) -> Path {
-        Path { x: self.x - other.x, v: self.v - other.v, a: self.a - other.a }
-    }
-
-    /// Whether it certainly does not go as far as `way` (m) before `time`, s: what spares most of those who ask for the
-    /// very next moment a quartic.
-    #[inline]
-    fn stays_within(&self, way: f64, time: f64) -> bool {
-        way * (1.0 - 1e-9) > (self.v.length() + 0.5 * self.a.length() * time) * time
-    }
-
-    /// Bounds of a coordinate along `axis` (any vector) over [from, to] (s).
-    fn reach(&self, axis: DVec3, from: f64, to: f64) -> (f64, f64) {
-        let (v, a) = (axis.dot(self.v), axis.dot(self.a));
-        let (start, end) = (axis.dot(self.at(from)), axis.dot(self.at(to)));
-        let apex = -v / a;
-        let turn = if apex > from && apex < to { axis.dot(self.at(apex)) } else { start };
-        (start.min(end).min(turn), start.max(end).max(turn))
-    }
-}
-
-/// The part of a parallelogram that is closest to a point. Edges and corners are numbered along the outline: edge k
-/// runs from corner k to corner k + 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// Its inside.
-    Face,
-    /// An edge without its ends.
-    Edge(u8),
-    /// A corner.
-    Corner(u8),
-}
-
-/// A sphere against a wall: where, along which normal, how far.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
-    /// What is touched.
-    pub part: Part,
-    /// The closest point, m.
-    pub point: DVec3,
-    /// Unit normal from it to the centre.
-    pub normal: DVec3,
-    /// Distance of the centre from the closest point − r, m.
-    pub gap: f64,
-}
-
-/// The closest point of a wall to a centre `x` (m) of a sphere of radius `r` (m).
-pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
-    let foot = x - face.shape.center;
-    let (u, w) = (foot.dot(face.dual1), foot.dot(face.dual2));
-    if u.abs() <= 0.5 && w.abs() <= 0.5 {
-        return touch_part(face, Part::Face, x, r);
-    }
-    let corners = face.shape.corners();
-    let mut best = (Part::Corner(0), f64::INFINITY);
-    for k in 0..4 {
-        let (from, to) = (corners[k], corners[(k + 1) % 4]);
-        let along = (x - from).dot(to - from) / (to - from).length_squared();
-        let (part, point) = match along {
-            s if s <= 0.0 => (Part::Corner(k as u8), from),
-            s if s >= 1.0 => (Part::Corner((k as u8 + 1) % 4), to),
-            s => (Part::Edge(k as u8), from + (to - from) * s),
-        };
-        let squared = (x - point).length_squared();
-        if squared < best.1 {
-            best = (part, squared);
-        }
-    }
-    touch_part(face, best.0, x, r)
-}
-
-/// The same with the part already known: a contact that rolls over an edge stays with what it was handed to.
-pub fn touch_part(face: &Face, part: Part, x: DVec3, r: f64) -> Touch {
-    let corners = face.shape.corners();
-    let point = match part {
-        Part::Face => {
-            let height = face.height(x);
-            let side = if height < 0.0 { -1.0 } else { 1.0 };
-            let point = x - face.normal * height;
-            return Touch { part, point, normal: face.normal * side, gap: side * height - r };
-        }
-        Part::Edge(k) => {
-            let (from, to) = (corners[k as usize], corners[(k as usize + 1) % 4]);
-            from + (to - from) * ((x - from).dot(to - from) / (to - from).length_squared())
-        }
-        Part::Corner(k) => corners[k as usize],
-    };
-    let arm = x - point;
-    let distance = arm.length();
-    Touch { part, point, normal: arm / distance, gap: distance - r }
-}
-
-/// Unit vector along edge `k` of a wall.
-pub fn edge_direction(face: &Face, k: u8) -> DVec3 {
-    let side = if k.is_multiple_of(2) { face.shape.s1 } else { face.shape.s2 };
-    side / side.length()
-}
-
-/// What the curvature of a touched part adds to the second derivative of the gap, m/s²: |v_⊥|²/r at an edge or corner.
-pub fn curvature(face: &Face, part: Part, normal: DVec3, v: DVec3, r: f64) -> f64 {
-    let across = v - normal * normal.dot(v);
-    match part {
-        Part::Face => 0.0,
-        Part::Edge(k) => {
-            let along = edge_direction(face, k);
-            (across - along * along.dot(across)).length_squared() / r
-        }
-        Part::Corner(_) => across.length_squared() / r,
-    }
-}
 
 /// The times t in [0, before) from which a quartic is ≤ 0 while falling, one for each stretch on which it falls.
 fn quartic_falls(c: &[f64; 5], before: f64) -> ([f64; 3], usize) {
@@ -208,32 +72,43 @@ pub fn straight_pair(x: DVec3, v: DVec3, reach: f64) -> Option<f64> {
     (discriminant > 0.0).then(|| c / (discriminant.sqrt() - b))
 }
 
-/// v_n of a pair at offset `x` (m) with relative velocity `v`, m/s: the handler's expression.
-#[inline]
-pub fn pair_normal_velocity(x: DVec3, v: DVec3) -> f64 {
-    normal_velocity(v, DVec3::ZERO, x / x.length())
+/// An approach at one moment, as far as its turning into a retreat depends on it.
+struct Approach {
+    /// v_n < 0, m/s.
+    closing: f64,
+    /// How fast v_n grows, m/s².
+    bends: f64,
+    /// Relative speed, m/s, and acceleration, m/s²: they bound how fast `bends` changes.
+    speed: f64,
+    acceleration: f64,
+    /// Radius of curvature, m.
+    radius: f64,
+    /// Size of the coordinates, m.
+    size: f64,
 }
 
-/// Whether an approach turns into a retreat by itself before the gap has shrunk by what rounding leaves of coordinates:
-/// then it is none. Where a sphere is pressed against one body and slides past another, rounding alone would otherwise
-/// drive it into the one and the other in turn, for ever at one instant.
-///
-/// `closing` < 0 is v_n (m/s), `bends` how fast it grows (m/s²), at a radius of curvature `r` (m) and coordinates of
-/// `size` (m); `v` (m/s) and `a` (m/s²) bound how fast `bends` changes: it must still be positive when v_n reaches 0.
-fn grazes(closing: f64, bends: f64, v: f64, a: f64, r: f64, size: f64) -> bool {
-    let jerk = 3.0 * v * (a + v * v / r) / r;
-    // an approach that an impulse has made is none of rounding's, however shallow
-    -closing <= 64.0 * f64::EPSILON * v
-        && bends > 0.0
-        && closing * closing <= 2.0 * bends * GRAZE * size
-        && -2.0 * jerk * closing <= bends * bends
+impl Approach {
+    /// Whether it turns into a retreat by itself before the gap has shrunk by what rounding leaves of coordinates: then it
+    /// is none. Where a sphere is pressed against one body and slides past another, rounding alone would otherwise drive it
+    /// into the one and the other in turn, for ever at one instant. `bends` must still be positive when v_n reaches 0.
+    fn grazes(&self) -> bool {
+        let Approach { closing, bends, speed, acceleration, radius, size } = *self;
+        let jerk = 3.0 * speed * (acceleration + speed * speed / radius) / radius;
+        // an approach that an impulse has made is none of rounding's, however shallow
+        -closing <= 64.0 * f64::EPSILON * speed
+            && bends > 0.0
+            && closing * closing <= 2.0 * bends * GRAZE * size
+            && -2.0 * jerk * closing <= bends * bends
+    }
 }
 
-/// The same for a pair; `path` is that of one centre seen from the other, now.
+/// Whether two spheres that approach at v_n = `closing` (m/s) only graze; `path` is that of one centre seen from the other,
+/// now.
 fn pair_grazes(path: &Path, closing: f64) -> bool {
     let (distance, speed) = (path.x.length(), path.v.length());
     let bends = path.x.dot(path.a) / distance + (speed * speed - closing * closing) / distance;
-    grazes(closing, bends, speed, path.a.length(), distance, distance)
+    let acceleration = path.a.length();
+    Approach { closing, bends, speed, acceleration, radius: distance, size: distance }.grazes()
 }
 
 fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
@@ -444,7 +319,7 @@ impl Search<'_> {
         (bends < 0.0).then(|| t - 2.0 * closing / bends)
     }
 
-    /// [`grazes`] for a touch at `t`.
+    /// Whether a touch at `t` (s) that approaches at v_n = `closing` (m/s) only grazes.
     fn grazes(&self, t: f64, at: &Touch, closing: f64) -> bool {
         let (x, v, a) = (self.path.at(t), self.path.velocity(t), self.path.a);
         let size = x.abs().max_element().max(self.r);
@@ -455,7 +330,7 @@ impl Search<'_> {
         // as in `approached`: over an edge a fast sphere leaves what it was pressed against
         let ahead = part_ahead(self.face, x, v, a, self.r);
         let bends = at.normal.dot(a) + curvature(self.face, ahead, at.normal, v, self.r);
-        grazes(closing, bends, v.length(), a.length(), self.r, size)
+        Approach { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size }.grazes()
     }
 
     /// What rounding may leave of a gap that is meant to be 0, m: some hundred ulp of the coordinates and the path.

@@ -1,7 +1,7 @@
 //! What a run tells of itself: the contacts and probes of its last frame, its events, its tallies.
 
-use super::contact::Key;
-use super::{Class, Contact, Probe, Tallies};
+use super::contact::{Class, Contact, Key, Probe};
+use super::state::Tallies;
 
 /// Filled by the method, read through the door.
 #[derive(Debug, Clone, Default)]
@@ -21,7 +21,7 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: nobody can have asked yet).
+    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be asked to).
     pub(crate) fn event(&mut self, row: Contact) {
         match row.class {
             Class::Collide => self.tallies.impacts += 1,
@@ -34,7 +34,7 @@ impl Log {
         }
     }
 
-    /// Compares who rests after a frame, as its contacts (sorted by key) tell, with who rested before: one `rest` row
+    /// Compares what rests after a frame, as its contacts (sorted by key) tell, with what rested before: one `rest` row
     /// when a rest begins, one row of `release` when it ends.
     pub(crate) fn follow_rests(&mut self, release: impl Fn(Key) -> Contact) {
         let rests = |c: &&Contact| c.class == Class::Rest;

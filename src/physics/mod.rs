@@ -1,321 +1,43 @@
-//! The door to the physics: a [`Simulation`] of a scene by a [`Method`], advanced in slices and read between frames.
+//! The door to the physics: a [`Simulation`] of a [`Scene`] by a [`Method`], advanced in slices and read between frames.
+//!
+//! Data flow: scene → [`model`] (what is constant, and only what the scene requires) → one method, which advances a
+//! [`State`] and tells a log of contacts, events and tallies → read through [`Simulation`]. Begin with [`simulation`],
+//! then [`method`]; then `events`, the engine under `exact` and `swept`, or the methods `paper` and `moreau`. What they
+//! share: [`impact_law`], [`contact_time`] (when do bodies touch), [`overlap`] (how deep now), [`support`] (what holds).
 //!
 //! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
 //! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 
-use std::borrow::Cow;
-
-use glam::DVec3;
-
-#[cfg(test)]
-pub(crate) mod broken;
+mod closed_room;
+mod conserved;
 pub mod contact;
 pub mod contact_time;
-mod detector;
+mod events;
 mod exact;
-mod knobs;
+mod free_flight;
+pub mod impact_law;
+#[cfg(test)]
+pub(crate) mod law_fault;
 mod log;
+pub mod method;
 pub mod model;
 mod moreau;
-pub mod motion;
 pub mod neighbors;
 pub mod overlap;
 mod paper;
-mod parts;
-mod requirements;
-mod sealed;
+pub mod path;
+pub mod requirements;
+pub mod simulation;
 pub mod state;
 pub mod support;
 mod swept;
+pub mod wall;
+mod wall_parts;
 
 pub use contact::{Class, Contact, Kind, Probe};
-pub use knobs::{Effect, Knobs, knobs};
-use log::Log;
-pub use model::{ContactLaw, Method, Model, PairSearch, Scene, Settings};
-pub use requirements::Requirements;
+pub use events::rest_reason::RestReason;
+pub use method::{Description, Effect, Knobs, Progress, Until, knobs};
+pub use model::{ContactLaw, Method, Model, Scene, Settings};
+pub use requirements::{PairSearch, Requirements};
+pub use simulation::{Simulation, describe, deviations};
 pub use state::{Stall, State, Tallies};
-
-/// How far one call of [`Simulation::advance`] should go.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Until {
-    /// Until the frame in progress is complete: what one single-step shows.
-    Frame,
-    /// Until a frame ends at or after this time, s; read the state at the time itself with [`Simulation::at`].
-    Time(f64),
-}
-
-/// How a call of [`Simulation::advance`] ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Progress {
-    /// The goal is reached.
-    Reached,
-    /// The work budget is spent; call again to go on. No bit depends on where the slices fall.
-    Yielded,
-    /// The run cannot go on; calling again says so again.
-    Stalled(Stall),
-}
-
-/// What a method is: shown by `carom methods`, and a test refuses a method without it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Description {
-    /// The method.
-    pub method: Method,
-    /// One line: what it is.
-    pub summary: &'static str,
-    /// Order of its error, and in which knob.
-    pub order: &'static str,
-    /// Where it comes from.
-    pub source: &'static str,
-    /// What its knobs do.
-    pub knobs: &'static str,
-    /// When to choose another.
-    pub avoid: &'static str,
-}
-
-/// What a method is.
-pub fn describe(method: Method) -> &'static Description {
-    match method {
-        Method::Paper => &paper::DESCRIPTION,
-        Method::Swept => &swept::DESCRIPTION,
-        Method::Exact => &exact::DESCRIPTION,
-        Method::Moreau => &moreau::DESCRIPTION,
-    }
-}
-
-/// Where a method is not its source to the letter, and what of the letter to know of: a sentence each.
-pub fn deviations(method: Method) -> &'static [&'static str] {
-    match method {
-        Method::Paper => paper::DEVIATIONS,
-        Method::Swept | Method::Exact | Method::Moreau => &[],
-    }
-}
-
-/// One method at work. The model and the log are lent for the length of a call, the state between frames is its own.
-trait Engine {
-    /// Takes over at `state`, which is the model's initial one (t = 0) or what another method left.
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Self;
-    /// Goes on for about `work` units, or to the goal.
-    fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress;
-    /// Takes other settings (of the same method) from the next frame on; a frame in progress is given up, which leaves
-    /// no trace, since its result would have followed from the last frame's end alone.
-    fn retune(&mut self, model: &Model, settings: Settings);
-    /// The state at the end of the last frame.
-    fn state(&self, model: &Model) -> Cow<'_, State>;
-    /// Time at the end of the last frame, s.
-    fn time(&self) -> f64;
-    /// Real length of the last frame, s; 0 before the first.
-    fn step(&self) -> f64;
-    /// A copy of the state at `t` (s) within the last frame.
-    fn at(&self, model: &Model, t: f64) -> State;
-    /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
-    /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere;
-    /// `moreau`: what held.
-    fn transient(&self, model: &Model) -> Vec<DVec3>;
-    /// Right after [`Engine::begin`]: continues the run whose transient this was.
-    fn continue_with(&mut self, transient: &[DVec3]);
-    /// The state for another method to begin with: pending impulses are already in its velocities.
-    fn hand_over(&self, model: &Model) -> State;
-}
-
-/// The methods, dispatched once per call.
-#[derive(Debug, Clone)]
-enum Engines {
-    /// The source paper's.
-    Paper(paper::Paper),
-    /// Event by event, contact times found by looking.
-    Swept(exact::Exact<swept::Advance>),
-    /// Event by event, contact times by roots.
-    Exact(exact::Exact<exact::Roots>),
-    /// Velocity-level time-stepping.
-    Moreau(moreau::Moreau),
-}
-
-/// Calls the same trait method of whichever engine runs.
-macro_rules! each {
-    ($engines:expr, $engine:ident => $call:expr) => {
-        match $engines {
-            Engines::Paper($engine) => $call,
-            Engines::Swept($engine) => $call,
-            Engines::Exact($engine) => $call,
-            Engines::Moreau($engine) => $call,
-        }
-    };
-}
-
-impl Engines {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Engines {
-        match settings.method {
-            Method::Paper => Engines::Paper(Engine::begin(model, settings, state, log)),
-            Method::Swept => Engines::Swept(Engine::begin(model, settings, state, log)),
-            Method::Exact => Engines::Exact(Engine::begin(model, settings, state, log)),
-            Method::Moreau => Engines::Moreau(Engine::begin(model, settings, state, log)),
-        }
-    }
-}
-
-/// A scene under way: one method advancing one state.
-#[derive(Debug, Clone)]
-pub struct Simulation {
-    model: Model,
-    settings: Settings,
-    engine: Engines,
-    log: Log,
-    initial_energy: f64,
-    stall: Option<Stall>,
-}
-
-impl Simulation {
-    /// Units of work that take some milliseconds in most scenes: so soon a caller of [`Simulation::advance`] can look at
-    /// what else there is to do. No bit of a result depends on it.
-    pub const SLICE: u64 = 20_000;
-
-    /// A simulation of `scene` at t = 0, the contacts found there already handled.
-    pub fn new(scene: &Scene, settings: Settings) -> Simulation {
-        let model = Model::new(scene);
-        let mut log = Log::default();
-        let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
-        let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
-        Simulation { model, settings, engine, log, initial_energy, stall }
-    }
-
-    /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
-    /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
-    /// then. Tallies count from here. `exact` and `swept` do the run up to here again when it is first told to advance, within
-    /// the work it is given.
-    pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
-        let mut model = Model::new(scene);
-        model.initial.t = t;
-        let mut log = Log::default();
-        let mut engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
-        each!(&mut engine, engine => engine.continue_with(transient));
-        let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
-        let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
-        Simulation { model, settings, engine, log, initial_energy, stall }
-    }
-
-    /// Goes on for about `work` units (degree evaluations or events), or to the goal, whichever is first.
-    pub fn advance(&mut self, until: Until, work: u64) -> Progress {
-        if let Some(stall) = &self.stall {
-            return Progress::Stalled(stall.clone());
-        }
-        let Simulation { model, engine, log, .. } = self;
-        let progress = each!(engine, engine => engine.advance(model, log, until, work));
-        if let Progress::Stalled(stall) = &progress {
-            self.stall = Some(stall.clone());
-        }
-        progress
-    }
-
-    /// Goes on until a frame ends at or after `time` (s), call by call of [`Simulation::advance`]. Before each call `next`
-    /// sees the run and says how many units of work come next; by `None` it stops the run, and the answer is
-    /// [`Progress::Yielded`].
-    pub fn run_to(&mut self, time: f64, mut next: impl FnMut(&mut Simulation) -> Option<u64>) -> Progress {
-        loop {
-            let Some(work) = next(self) else { return Progress::Yielded };
-            match self.advance(Until::Time(time), work) {
-                Progress::Yielded => {}
-                end => return end,
-            }
-        }
-    }
-
-    /// Time at the end of the last frame, s.
-    pub fn time(&self) -> f64 {
-        each!(&self.engine, engine => engine.time())
-    }
-
-    /// Real length of the last frame, s; 0 before the first.
-    pub fn step(&self) -> f64 {
-        each!(&self.engine, engine => engine.step())
-    }
-
-    /// A copy of the state at the end of the last frame.
-    pub fn state(&self) -> State {
-        self.now().into_owned()
-    }
-
-    /// A copy of the state at `t` (s) within the last frame, reached from the frame's start by a shortened step; a `t`
-    /// outside the frame counts as its nearer end. Reading never changes the run.
-    pub fn at(&self, t: f64) -> State {
-        each!(&self.engine, engine => engine.at(&self.model, t))
-    }
-
-    /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
-    /// in the next, N s by sphere. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
-    /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
-    /// then the continuation is the same to rounding only. `moreau`: as many rows as contacts held in the last frame:
-    /// sphere, other sphere (or −1 − wall), impulse in N s.
-    pub fn transient(&self) -> Vec<DVec3> {
-        each!(&self.engine, engine => engine.transient(&self.model))
-    }
-
-    /// Every contact of the last frame, in the order in which they were handled.
-    pub fn contacts(&self) -> &[Contact] {
-        &self.log.contacts
-    }
-
-    /// The trial steps of the last frame's search for the collision time.
-    pub fn probes(&self) -> &[Probe] {
-        &self.log.probes
-    }
-
-    /// Keep (or stop keeping) every collide, rest and release for [`Simulation::take_events`]. Off at first: it costs
-    /// memory, and never a bit of the result. Asked for before the first frame, it includes what happened at load.
-    pub fn record_events(&mut self, on: bool) {
-        if !self.log.recording && self.log.tallies.frames > 0 {
-            self.log.events.clear();
-        }
-        self.log.recording = on;
-    }
-
-    /// The events kept since the last call, in order of time.
-    pub fn take_events(&mut self) -> Vec<Contact> {
-        std::mem::take(&mut self.log.events)
-    }
-
-    /// Counted since t = 0.
-    pub fn tallies(&self) -> Tallies {
-        self.log.tallies
-    }
-
-    /// Σ ½ m v² − m g·x − F·x at the end of the last frame, J.
-    pub fn energy(&self) -> f64 {
-        self.now().energy(&self.model)
-    }
-
-    /// The same at t = 0, J.
-    pub fn initial_energy(&self) -> f64 {
-        self.initial_energy
-    }
-
-    /// What is being solved with.
-    pub fn settings(&self) -> Settings {
-        self.settings
-    }
-
-    /// From the next frame on, solve with other settings. A run that stalled tries again.
-    pub fn set_settings(&mut self, settings: Settings) {
-        let Simulation { model, engine, log, .. } = self;
-        if settings.method == self.settings.method {
-            each!(engine, engine => engine.retune(model, settings));
-        } else {
-            if log.tallies.frames == 0 {
-                *log = Log { recording: log.recording, ..Log::default() };
-            }
-            let state = each!(&*engine, engine => engine.hand_over(model));
-            *engine = Engines::begin(model, settings, state, log);
-        }
-        self.settings = settings;
-        self.stall = self.now().runaway(&self.model);
-    }
-
-    /// All that is constant.
-    pub fn model(&self) -> &Model {
-        &self.model
-    }
-
-    /// The state at the end of the last frame, without a copy where the method holds one.
-    fn now(&self) -> Cow<'_, State> {
-        each!(&self.engine, engine => engine.state(&self.model))
-    }
-}

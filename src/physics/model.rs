@@ -5,11 +5,13 @@
 
 use glam::DVec3;
 
-use super::State;
+use super::closed_room::edges_unreachable;
 use super::neighbors::cell_count;
-use super::requirements::Requirements;
-use super::sealed::sealed;
+use super::requirements::{PairSearch, Requirements};
+use super::state::State;
+use super::wall::Face;
 use crate::geometry::Parallelogram;
+
 pub use crate::scene::{ContactLaw, Method, Scene, Settings};
 
 /// Up to this many spheres every pair is looked at: sorting so few into cells costs more than it saves.
@@ -24,17 +26,6 @@ pub enum Pull {
     Uniform(DVec3),
     /// At least one sphere carries a force of its own: [`Model::accelerations`] holds g + F / m.
     PerSphere,
-}
-
-/// How pairs that may touch are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PairSearch {
-    /// Fewer than two spheres: there are no pairs.
-    None,
-    /// Few spheres: every pair.
-    All,
-    /// Many spheres: cells.
-    Cells,
 }
 
 /// What the scene requires.
@@ -62,43 +53,6 @@ pub struct Model {
     gravity: bool,
     /// Spheres with a force of their own.
     forces: usize,
-}
-
-/// A wall with what its tests need: unit normal and the dual vectors of its edges.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Face {
-    /// Centre, edges, m.
-    pub shape: Parallelogram,
-    /// Unit normal s1 × s2 / |s1 × s2|; contacts flip it to the sphere's side.
-    pub normal: DVec3,
-    /// d1 with d1·s1 = 1, d1·s2 = d1·n = 0, 1/m.
-    pub dual1: DVec3,
-    /// d2 with d2·s2 = 1, d2·s1 = d2·n = 0, 1/m.
-    pub dual2: DVec3,
-    /// Whether no sphere can reach its edges, as long as none passes a wall.
-    pub sealed: bool,
-}
-
-impl Face {
-    /// What the tests of a wall of this shape need, its edges taken as within reach.
-    pub fn new(shape: Parallelogram) -> Face {
-        let normal = shape.normal();
-        let (row1, row2) = (shape.s2.cross(normal), normal.cross(shape.s1));
-        Face { shape, normal, dual1: row1 / row1.dot(shape.s1), dual2: row2 / row2.dot(shape.s2), sealed: false }
-    }
-
-    /// Signed distance of `p` (m) from the wall's plane, m; positive on the side of `normal`.
-    #[inline]
-    pub fn height(&self, p: DVec3) -> f64 {
-        (p - self.shape.center).dot(self.normal)
-    }
-
-    /// Whether the foot of `p` (m) on the plane lies within the parallelogram, its boundary included.
-    #[inline]
-    pub fn shades(&self, p: DVec3) -> bool {
-        let q = p - self.shape.center;
-        q.dot(self.dual1).abs() <= 0.5 && q.dot(self.dual2).abs() <= 0.5
-    }
 }
 
 impl Model {
@@ -175,12 +129,12 @@ fn law(scene: &Scene) -> ContactLaw {
     #[cfg(not(test))]
     return scene.contact;
     #[cfg(test)]
-    super::broken::broken(scene.contact)
+    super::law_fault::broken(scene.contact)
 }
 
 /// The walls of a scene with what their tests need.
 fn faces(scene: &Scene, centers: &[DVec3], radii: &[f64]) -> Vec<Face> {
     let shapes: Vec<Parallelogram> = scene.walls.iter().map(|w| w.shape).collect();
-    let sealed = sealed(&shapes, centers, radii);
+    let sealed = edges_unreachable(&shapes, centers, radii);
     shapes.into_iter().zip(sealed).map(|(shape, sealed)| Face { sealed, ..Face::new(shape) }).collect()
 }

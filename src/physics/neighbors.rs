@@ -128,7 +128,7 @@ impl Cells {
         self.pairs_until(cells, near, || false)
     }
 
-    /// The same; it may stop at any sphere from which on `enough` says so.
+    /// Does what [`Cells::pairs`] does, up to any sphere from which on `enough` says so.
     #[inline]
     pub(crate) fn pairs_until(
         &self,

@@ -8,10 +8,11 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::contact::Key;
-use super::model::{Face, PairSearch};
+use super::contact::{Key, Kind};
+use super::model::Model;
 use super::neighbors::Cells;
-use super::{Kind, Model};
+use super::requirements::PairSearch;
+use super::wall::Face;
 
 /// Where and how deep two bodies touch (negative degree: apart).
 #[derive(Debug, Clone, Copy, PartialEq)]

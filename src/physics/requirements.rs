@@ -1,6 +1,15 @@
 //! What a model holds and what it leaves out, in numbers and words.
 
-use super::model::PairSearch;
+/// How pairs that may touch are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PairSearch {
+    /// Fewer than two spheres: there are no pairs.
+    None,
+    /// Few spheres: every pair.
+    All,
+    /// Many spheres: cells.
+    Cells,
+}
 
 /// What a scene requires; whatever is zero, false or `None` here is absent from its model and costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

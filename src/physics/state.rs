@@ -1,8 +1,6 @@
-//! All that moves: t, x, v; energy, momentum, tallies; and why a run cannot go on.
+//! All that moves: t, x, v; tallies; and why a run cannot go on.
 
 use glam::DVec3;
-
-use super::Model;
 
 /// Time, positions and velocities. P = m v.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,27 +22,6 @@ impl State {
             .chain(coordinates)
             .flat_map(f64::to_le_bytes)
             .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
-    }
-
-    /// Σ ½ m v² − m g·x − F·x, J, summed in index order.
-    pub fn energy(&self, model: &Model) -> f64 {
-        let of = |i: usize| model.masses[i] * (0.5 * self.v[i].length_squared() - model.acceleration(i).dot(self.x[i]));
-        (0..self.x.len()).map(of).sum()
-    }
-
-    /// Whether some sphere is out of the range of numbers, or accelerated so that it would be soon.
-    pub(super) fn runaway(&self, model: &Model) -> Option<Stall> {
-        let begin = "begin with smaller coordinates and speeds";
-        let pulled = "with its acceleration in place of its velocity; begin with smaller forces";
-        (0..self.x.len()).find_map(|i| {
-            let (x, v, a) = (self.x[i], self.v[i], model.acceleration(i));
-            runaway(i, self.t, [x, v], begin).or_else(|| runaway(i, self.t, [x, a], pulled))
-        })
-    }
-
-    /// Σ m v, kg m/s, summed in index order.
-    pub fn momentum(&self, model: &Model) -> DVec3 {
-        self.v.iter().zip(&model.masses).map(|(v, m)| *v * *m).sum()
     }
 }
 

@@ -1,6 +1,6 @@
 //! What rooms are asked at every half second, curved rest or not: no overlap beyond 1e-12 r, and no rise of the energy.
 
-use carom::physics::contact_time::touch;
+use carom::physics::wall::touch;
 use carom::physics::{Model, Simulation, State};
 
 use crate::judged::{Failure, fail};

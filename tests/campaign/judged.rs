@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use carom::audit::{Fault, Finding, Judge};
 use carom::measure::thread_cpu;
-use carom::physics::contact_time::{Part, touch};
+use carom::physics::wall::{Part, touch};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use glam::dvec3;
 

@@ -1,7 +1,7 @@
 //! What several generators share: free places, gravity, a room around.
 
 use carom::physics::Model;
-use carom::physics::contact_time::touch;
+use carom::physics::wall::touch;
 use carom::scene::{Sphere, Wall};
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
 //! Rooms with free-standing walls and a few spheres.
 
-use carom::physics::contact_time::touch;
+use carom::physics::wall::touch;
 use carom::physics::{Model, Scene};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};

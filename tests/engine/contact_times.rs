@@ -3,8 +3,10 @@
 
 use crate::random::Random;
 use carom::geometry::Parallelogram;
-use carom::physics::contact_time::{Part, Path, sphere_sphere, sphere_wall, touch};
-use carom::physics::model::Face;
+use carom::physics::contact_time::{sphere_sphere, sphere_wall};
+use carom::physics::path::Path;
+use carom::physics::wall::Face;
+use carom::physics::wall::{Part, touch};
 use glam::DVec3;
 
 /// Gap of a sphere and a parallelogram by the normal equations of min |q − u s1 − w s2|² over the box, then its edges.

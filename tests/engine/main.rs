@@ -22,6 +22,7 @@ mod moreau_walls;
 #[path = "../support/random.rs"]
 mod random;
 mod redundant;
+mod rest_reasons;
 mod roots;
 mod seeds;
 #[path = "../support/sums.rs"]

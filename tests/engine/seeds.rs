@@ -1,8 +1,8 @@
 //! What the owner asked for: the source paper's sentences and formulas, a test each.
 
 use crate::support::{self, ELASTIC, G, PAPER_LAW, changed, paper, run_to, scene, sphere, wall};
-use carom::physics::model::Face;
 use carom::physics::overlap::{pair_touch, wall_touch};
+use carom::physics::wall::Face;
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Simulation, Until, describe};
 use glam::{DVec3, dvec3};
 

@@ -86,7 +86,7 @@ fn claim(next: &AtomicUsize) -> Option<(usize, &'static Check)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::broken::with_restitution_times;
+    use crate::physics::law_fault::with_restitution_times;
 
     /// Titles of the checks that fail under a law of that restitution, but for `left_out`.
     fn failing(pairs: f64, walls: f64, left_out: &[&str]) -> Vec<&'static str> {

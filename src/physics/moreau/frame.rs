@@ -4,12 +4,14 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::super::contact::Key;
-use super::super::log::Log;
-use super::super::motion::{Flight, with_flight};
-use super::super::{Class, Contact, Kind, Model, Stall, contact_time, motion, overlap};
-use super::meeting::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
-use super::{Carried, Moreau};
+use super::contact_row::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
+use super::run::{Carried, Moreau, Stage};
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::free_flight::{Flight, with_flight};
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::state::Stall;
+use crate::physics::{impact_law, overlap, wall};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -17,32 +19,6 @@ const MOST_ROUNDS: usize = 64;
 
 /// Rows made or looked for again between two looks at the budget.
 const CHUNK: usize = 4096;
-
-/// What the frame in progress does next; rounds count how often rows have been looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
-    /// No frame is in progress.
-    Between,
-    /// Looks for bodies that may touch.
-    Search {
-        /// How often rows have been looked for.
-        round: usize,
-    },
-    /// Makes rows of those that meet.
-    Meet {
-        /// How often rows have been looked for.
-        round: usize,
-        /// The next candidate.
-        from: usize,
-        /// Rows that there were before this round.
-        known: usize,
-    },
-    /// Solves the rows.
-    Solve {
-        /// How often rows have been looked for.
-        round: usize,
-    },
-}
 
 impl Moreau {
     /// Goes on with the frame in progress, or opens one; the work that took.
@@ -168,7 +144,7 @@ impl Moreau {
     /// How deep a sphere is in the walls that held it in the last frame, m: what the solver has left.
     fn depth(&self, model: &Model, sphere: usize) -> f64 {
         let (x, r) = (self.end.x[sphere], model.radii[sphere]);
-        let gap = |wall: usize| contact_time::touch(&model.faces[wall], x, r).gap;
+        let gap = |wall: usize| wall::touch(&model.faces[wall], x, r).gap;
         self.walls_that_held(sphere).map(|wall| -gap(wall)).fold(0.0, f64::max)
     }
 
@@ -236,7 +212,7 @@ impl Moreau {
         Ok(())
     }
 
-    /// The rows are solved: whoever moves farther than was looked for is searched for again.
+    /// The rows are solved: spheres that move farther than was looked for are searched for again.
     fn look_again(&mut self, model: &Model, round: usize) {
         let h = self.settings.dt;
         self.solver.read_impulses(&mut self.rows);
@@ -343,7 +319,7 @@ impl Moreau {
             point: touch.point,
             normal: touch.normal,
             approach_speed: row.approach,
-            separation_speed: motion::normal_velocity(self.end.v[a], v_b, row.normal),
+            separation_speed: impact_law::normal_velocity(self.end.v[a], v_b, row.normal),
             impulse: row.impulse,
             degree: touch.degree,
             class: row.class,

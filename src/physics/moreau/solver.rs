@@ -11,9 +11,10 @@
 
 use glam::DVec3;
 
-use super::super::support::{self, Island, islands};
-use super::super::{Kind, Model};
-use super::meeting::Row;
+use super::contact_row::Row;
+use crate::physics::contact::Kind;
+use crate::physics::model::Model;
+use crate::physics::support::{self, Island, islands};
 
 /// Ratio of two masses in an island from which sweeping is not tried: it would need about as many sweeps.
 const UNLIKE_MASSES: f64 = 100.0;

@@ -1,10 +1,11 @@
 //! One frame: opened, ended by the dt or by the search for the collision time, closed with its responses.
 
-use super::super::log::Log;
-use super::super::overlap::Overlap;
-use super::super::{Model, Probe};
-use super::trial::{Stage, carry_velocities};
-use super::{Paper, Search};
+use super::run::{Paper, Search, Stage};
+use super::trial_step::carry_velocities;
+use crate::physics::contact::Probe;
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::overlap::Overlap;
 
 /// What rounding may add to the degree of a contact that must not sink further.
 const ROUNDING: f64 = 1e-12;
@@ -90,7 +91,7 @@ impl Paper {
         self.watch.note(self.end.t - self.start.t, self.step < self.settings.dt, self.settings.dt, log);
     }
 
-    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`](super::cruise).
+    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`](super::free_frames).
     pub(super) fn is_calm(&self, log: &Log) -> bool {
         self.finder.found.is_empty() && self.next.list().is_empty() && log.resting.is_empty()
     }

@@ -26,34 +26,26 @@
 //! - Several contacts of a sphere in one frame are all answered from its velocity before any of them, as printed. Their
 //!   sum can create energy: two light spheres struck at once by a third each take what one alone would take.
 //!
-//! [`DEVIATIONS`] says all this to people who ask what the method is.
+//! [`DEVIATIONS`] says all this in `carom methods`.
 //!
 //! A contact that is already deeper than the tolerance when a frame begins (the tolerance was lowered) may stay as
 //! deep as it is until it separates. All that follows is a function of t, x, v, the pending impulses and the settings,
 //! so that a run can be continued from those, bit for bit.
 
-mod cruise;
+mod engine;
 mod frame;
+mod free_frames;
+mod kicks;
 mod response;
-mod trial;
-mod watch;
+mod run;
+mod stalls;
+mod trial_step;
+mod watchdog;
 
-use std::borrow::Cow;
+use super::method::Description;
+use super::model::Method;
 
-use glam::DVec3;
-
-use super::log::Log;
-use super::overlap::{Finder, Overlap};
-use super::{Description, Engine, Method, Model, Probe, Progress, Settings, State, Until};
-use response::Kicks;
-use trial::Stage;
-use watch::Watch;
-
-/// Accepted beyond the tolerance, dimensionless, as the paper prints it.
-const SLACK: f64 = 1e-4;
-
-/// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
-const LARGEST_TOLERANCE: f64 = 0.5;
+pub(super) use run::Paper;
 
 /// What `paper` is.
 pub(super) const DESCRIPTION: Description = Description {
@@ -83,163 +75,3 @@ pub(super) const DEVIATIONS: &[&str] = &[
      (the break of billiard gains 42 % by dt 0.01)",
     "an overlap deeper than a tolerance that was lowered may stay until the contact separates",
 ];
-
-/// How far the search for the collision time has come; steps count from the frame's start, s.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Search {
-    /// The whole step is being tried.
-    Whole,
-    /// The collision lies between `apart` and `deep`.
-    Between { apart: f64, deep: f64 },
-    /// No time lies between the two any more: the later one is taken as it is.
-    Last,
-}
-
-/// The method at work.
-#[derive(Debug, Clone)]
-pub(super) struct Paper {
-    settings: Settings,
-    /// Start of the frame in progress; between frames: of the last frame.
-    start: State,
-    /// Where the trial step ends; between frames: the end of the last frame.
-    end: State,
-    /// What acts on single spheres in the frame from `start` to `end`, beside what always does.
-    kicks: Kicks,
-    /// What will act in the next frame; while a frame is in progress, what acted in the one before.
-    next: Kicks,
-    /// Overlaps of the trial state.
-    finder: Finder,
-    /// Contacts that began the frame deeper than is accepted, and how deep.
-    allowed: Vec<Overlap>,
-    /// The step being tried, s; none between frames.
-    trial: Option<f64>,
-    /// How much of the trial state has been computed.
-    stage: Stage,
-    /// 0 as long as every position of the trial state is finite.
-    residue: f64,
-    search: Search,
-    /// Trial steps of the frame in progress.
-    probes: Vec<Probe>,
-    /// Length of the last frame, s.
-    step: f64,
-    watch: Watch,
-}
-
-impl Engine for Paper {
-    fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Paper {
-        let mut paper = Paper {
-            settings,
-            end: state.clone(),
-            watch: Watch::at(state.t),
-            start: state,
-            kicks: Kicks::none(model.len()),
-            next: Kicks::none(model.len()),
-            finder: Finder::new(model),
-            allowed: Vec::new(),
-            trial: None,
-            stage: Stage::Complete,
-            residue: 0.0,
-            search: Search::Whole,
-            probes: Vec::new(),
-            step: 0.0,
-        };
-        log.tallies.evaluations += paper.finder.all(model, &paper.end.x, paper.end.t == 0.0);
-        paper.respond(model, log);
-        paper
-    }
-
-    fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
-        let goal = match until {
-            Until::Frame => f64::NEG_INFINITY,
-            Until::Time(t) if self.time() >= t => return Progress::Reached,
-            Until::Time(t) => t,
-        };
-        let mut spent = 0;
-        while spent < work {
-            if self.trial.is_none() && self.is_calm(log) {
-                spent += self.cruise(model, log, goal, work - spent);
-            } else {
-                spent += self.go_on(model, log);
-            }
-            if let Some(stall) = self.guard(model, log) {
-                return Progress::Stalled(stall);
-            }
-            if self.trial.is_none() && (self.end.t >= goal || until == Until::Frame) {
-                return Progress::Reached;
-            }
-        }
-        Progress::Yielded
-    }
-
-    fn retune(&mut self, model: &Model, settings: Settings) {
-        self.give_up(model);
-        self.settings = settings;
-        self.watch = Watch::at(self.end.t);
-    }
-
-    fn state(&self, _: &Model) -> Cow<'_, State> {
-        Cow::Borrowed(if self.trial.is_some() { &self.start } else { &self.end })
-    }
-
-    fn time(&self) -> f64 {
-        if self.trial.is_some() { self.start.t } else { self.end.t }
-    }
-
-    fn step(&self) -> f64 {
-        self.step
-    }
-
-    fn at(&self, model: &Model, t: f64) -> State {
-        // The start of the last frame is gone as soon as the next is in progress.
-        if self.trial.is_some() || t >= self.end.t {
-            return self.state(model).into_owned();
-        }
-        let mut state = self.start.clone();
-        if t > state.t {
-            trial::forward(model, &self.kicks, &self.start, &mut state, t - self.start.t);
-            state.t = t;
-        }
-        state
-    }
-
-    fn transient(&self, model: &Model) -> Vec<DVec3> {
-        let mut impulses = vec![DVec3::ZERO; model.len()];
-        for kick in self.pending().list() {
-            impulses[kick.sphere] = kick.impulse;
-        }
-        impulses
-    }
-
-    fn continue_with(&mut self, transient: &[DVec3]) {
-        self.next.replace_impulses(transient);
-    }
-
-    fn hand_over(&self, model: &Model) -> State {
-        let mut state = self.state(model).into_owned();
-        for kick in self.pending().list() {
-            state.v[kick.sphere] += kick.impulse * model.inverse_masses[kick.sphere];
-        }
-        state
-    }
-}
-
-impl Paper {
-    /// The largest degree a frame may end with, for contacts without an allowance of their own.
-    fn accepted(&self) -> f64 {
-        self.settings.tolerance.min(LARGEST_TOLERANCE) + SLACK
-    }
-
-    /// What follows the end of the last frame.
-    fn pending(&self) -> &Kicks {
-        if self.trial.is_some() { &self.kicks } else { &self.next }
-    }
-
-    /// Gives up the frame in progress: the last one's end stands as it was, with what is to act next.
-    fn give_up(&mut self, model: &Model) {
-        if self.trial.take().is_some() {
-            std::mem::swap(&mut self.kicks, &mut self.next);
-            self.end.clone_from(&self.start);
-            self.finder.all(model, &self.end.x, false);
-        }
-    }
-}

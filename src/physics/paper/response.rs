@@ -1,81 +1,13 @@
 //! The response: transient impulses and support forces for the next frame (source: paper 2.4).
 
-use std::ops::Range;
-
 use glam::DVec3;
 
-use super::super::contact::Key;
-use super::super::log::Log;
-use super::super::overlap::{self, Overlap};
-use super::super::{Class, Contact, Kind, Model, motion};
-use super::Paper;
-
-/// What acts on one sphere during one frame, beside what always does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Kick {
-    /// Which.
-    pub(super) sphere: usize,
-    /// Transient: acts in full however short the frame is, N s.
-    pub(super) impulse: DVec3,
-    /// Support: acts for the frame's real length, m/s².
-    pub(super) support: DVec3,
-}
-
-/// The kicks of a frame, at most one per sphere.
-#[derive(Debug, Clone)]
-pub(super) struct Kicks {
-    /// Sorted by sphere once the responses are complete.
-    list: Vec<Kick>,
-    /// Place in the list by sphere while it is filled; [`NOWHERE`] without a kick.
-    place: Vec<u32>,
-}
-
-/// More than the million spheres a scene may have.
-const NOWHERE: u32 = u32::MAX;
-
-impl Kicks {
-    pub(super) fn none(spheres: usize) -> Kicks {
-        Kicks { list: Vec::new(), place: vec![NOWHERE; spheres] }
-    }
-
-    pub(super) fn list(&self) -> &[Kick] {
-        &self.list
-    }
-
-    /// Those of a range of spheres.
-    pub(super) fn of_spheres(&self, range: &Range<usize>) -> &[Kick] {
-        let before = |sphere: usize| self.list.partition_point(|k| k.sphere < sphere);
-        &self.list[before(range.start)..before(range.end)]
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.list.clear();
-    }
-
-    /// Takes these impulses, N s by sphere, instead of its own.
-    pub(super) fn replace_impulses(&mut self, impulses: &[DVec3]) {
-        let support = |kicks: &Kicks, i: usize| kicks.of_spheres(&(i..i + 1)).first().map(|k| k.support);
-        let kicks = impulses.iter().enumerate().filter_map(|(sphere, &impulse)| {
-            let support = support(self, sphere);
-            let needed = support.is_some() || impulse != DVec3::ZERO;
-            needed.then(|| Kick { sphere, impulse, support: support.unwrap_or(DVec3::ZERO) })
-        });
-        self.list = kicks.collect();
-    }
-
-    fn of(&mut self, sphere: usize) -> &mut Kick {
-        let known = self.place[sphere] as usize;
-        if self.list.get(known).is_none_or(|k| k.sphere != sphere) {
-            self.place[sphere] = self.list.len() as u32;
-            self.list.push(Kick { sphere, impulse: DVec3::ZERO, support: DVec3::ZERO });
-        }
-        &mut self.list[self.place[sphere] as usize]
-    }
-
-    fn sort(&mut self) {
-        self.list.sort_unstable_by_key(|k| k.sphere);
-    }
-}
+use super::run::Paper;
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::impact_law;
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::overlap::{self, Overlap};
 
 /// A contact as the law sees it.
 struct Meeting {
@@ -117,7 +49,7 @@ impl Paper {
             Kind::Wall => (DVec3::ZERO, 0.0),
             Kind::Pair => (self.end.v[b], model.acceleration(b).dot(n).max(0.0)),
         };
-        let v_n = motion::normal_velocity(self.end.v[a], v_b, n);
+        let v_n = impact_law::normal_velocity(self.end.v[a], v_b, n);
         Meeting { at, touch, v_n, press: [(-model.acceleration(a).dot(n)).max(0.0), press_b] }
     }
 
@@ -131,12 +63,12 @@ impl Paper {
         }
         let along = match kind {
             Kind::Wall => {
-                let impulse = motion::wall_impulse(model, a, self.end.v[a], n, *v_n, class);
+                let impulse = impact_law::wall_impulse(model, a, self.end.v[a], n, class);
                 self.next.of(a).impulse += impulse;
                 impulse.dot(n)
             }
             Kind::Pair => {
-                let impulse = motion::pair_impulse(model, a, b, *v_n, class);
+                let impulse = impact_law::pair_impulse(model, a, b, *v_n, class);
                 self.next.of(a).impulse += n * impulse;
                 self.next.of(b).impulse -= n * impulse;
                 impulse
@@ -162,7 +94,7 @@ impl Paper {
             point: touch.point,
             normal: touch.normal,
             approach_speed: -v_n,
-            separation_speed: motion::separation_speed(v_n, class, kind, &model.law),
+            separation_speed: impact_law::separation_speed(v_n, class, kind, &model.law),
             impulse,
             degree: touch.degree,
             class,
@@ -173,7 +105,7 @@ impl Paper {
 /// What the printed law makes of a contact: 0 < v_n ≤ rest_speed rests too, if something presses.
 fn class(model: &Model, meeting: &Meeting) -> Class {
     let pressed = meeting.press != [0.0; 2];
-    match motion::classify(meeting.v_n, pressed, &model.law) {
+    match impact_law::classify(meeting.v_n, pressed, &model.law) {
         Class::Leave if pressed && meeting.v_n <= model.law.rest_speed => Class::Rest,
         class => class,
     }

@@ -19,10 +19,10 @@ use super::problem::{Problem, ROUNDING};
 /// the set. What a sphere 1e12 times heavier than the one below it adds is 1e-6.
 pub(super) const DEPENDENT: f64 = 1e-11;
 
-/// The same where that finds no answer: normals that differ by 1e-12 rad are told apart in the end, or are not.
+/// Other such shares, where that one finds no answer: normals that differ by 1e-12 rad are told apart in the end, or are not.
 pub(super) const OTHERWISE_DEPENDENT: [f64; 4] = [1e-13, 1e-9, 1e-14, 1e-7];
 
-/// The same while a guessed set is taken over: contacts left out by mistake join later.
+/// Such a share while a guessed set is taken over: contacts left out by mistake join later.
 const DOUBTFUL: f64 = 1e-6;
 
 /// Weights below this count as no dependence when a contact takes another's place.

@@ -1,11 +1,10 @@
-//! The solvers against each other: u is unique, so whoever solves an island must find the same.
+//! The solvers against each other: u is unique, so that every solver of an island must find the same.
 
 use glam::DVec3;
 
 use super::active_set::{self, DEPENDENT};
-use super::enumerate;
-use super::gauss_seidel;
 use super::problem::{LocalRow, Problem};
+use super::{enumerate, gauss_seidel};
 
 /// SplitMix64 mapped to [−1, 1), the seed first.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::enumerate::{Candidate, one};
+use super::candidate::{Candidate, one};
 use super::problem::Problem;
 
 /// Sines and volumes of normals below this are rounding of the normals themselves: 2 ulp.

@@ -11,6 +11,7 @@
 
 use glam::DVec3;
 
+use super::candidate::{Candidate, one};
 use super::closely;
 use super::problem::{Problem, ROUNDING};
 
@@ -19,24 +20,6 @@ pub(super) const LIMIT: usize = 8;
 
 /// Most contacts for which they are tried if nothing else finds an answer (43 745 sets at 64).
 pub(super) const LAST_RESORT: usize = 64;
-
-/// Pushes in units of u₀ from which on they are computed closely: they have lost four digits.
-const SQUEEZED: f64 = 1e4;
-
-/// A set of contacts that might carry the body.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Candidate {
-    pub(super) u: DVec3,
-    /// Row and m λ; a row may stand several times.
-    pub(super) pushes: [(usize, f64); 3],
-}
-
-impl Candidate {
-    /// Whether the contacts push so much harder than u₀ asks that plain formulas have lost digits of the pushes.
-    fn squeezes(&self, problem: &Problem) -> bool {
-        self.pushes.iter().any(|(_, push)| push.abs() > SQUEEZED * problem.free[0].length())
-    }
-}
 
 /// Multipliers and u of a problem of one body.
 ///
@@ -97,15 +80,6 @@ fn candidate(problem: &Problem, set: &[usize]) -> Option<Candidate> {
         _ => return None,
     };
     Some(Candidate { u, pushes })
-}
-
-/// One contact: u keeps its tangential part. Corrected once, so that n·u + c is 0 to the last digit.
-pub(super) fn one(problem: &Problem, i: usize) -> (DVec3, [(usize, f64); 3]) {
-    let (free, row) = (problem.free[0], &problem.rows[i]);
-    let push = -(row.normal.dot(free) + row.offset);
-    let u = free + row.normal * push;
-    let u = u - row.normal * (row.normal.dot(u) + row.offset);
-    (u, [(i, push), (i, 0.0), (i, 0.0)])
 }
 
 /// Two contacts: u = t (t·u₀)/t² along the crease t = n₁ × n₂, plus what the offsets ask across it.

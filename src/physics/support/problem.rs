@@ -6,7 +6,6 @@
 
 use glam::DVec3;
 
-use super::Row;
 use super::island::Island;
 
 /// Relative size below which what is left of cancelling terms counts as rounding: 64 ulp. A pile's sphere has at most
@@ -18,6 +17,19 @@ const HUGE: f64 = f64::from_bits((1023 + 900) << 52);
 
 /// Numbers below this have lost digits, or lose them in the next product: they count as 0.
 const FAINTEST: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
+/// One row of J and its offset c: contact `a` on `b` (or on a wall).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// The sphere.
+    pub a: usize,
+    /// The other sphere; none for a wall.
+    pub b: Option<usize>,
+    /// Unit normal, from `b` (or the wall) to `a`.
+    pub normal: DVec3,
+    /// c in J u + c ≥ 0, in units of u (m/s or m/s²).
+    pub offset: f64,
+}
 
 /// A row in local indices.
 #[derive(Debug, Clone, Copy)]

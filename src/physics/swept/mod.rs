@@ -7,12 +7,16 @@
 //! be, and halves a step that rounding has made too long (`advance`). Responses come one after the other, and what rests
 //! is held up island by island, as in every method that knows the order of its events.
 
-mod advance;
-mod sight;
+mod advancement;
+mod separation;
 
-use super::{Description, Method};
+use super::events::resumable::Resumable;
+use super::method::Description;
+use super::model::Method;
+use advancement::ConservativeAdvancement;
 
-pub(super) use advance::Advance;
+/// The method at work.
+pub(super) type Swept = Resumable<ConservativeAdvancement>;
 
 /// What the method is.
 pub(super) const DESCRIPTION: Description = Description {

@@ -1,0 +1,14 @@
+//! What the judge is shown.
+
+use crate::physics::{Contact, State};
+
+/// What a frame has left behind.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame<'a> {
+    /// The state at its end.
+    pub state: &'a State,
+    /// Its contacts, in the order in which they were handled.
+    pub contacts: &'a [Contact],
+    /// The events told since the frame before.
+    pub events: &'a [Contact],
+}

@@ -1,0 +1,153 @@
+//! Corrections at the level of rounding: a bounce keeps its energy; a series of bounces is summed up; an approach by
+//! rounding is turned round; a contact that lets go parts.
+
+use glam::DVec3;
+
+use super::bounce_series::Bounces;
+use super::contact_state::ContactState;
+use super::mechanics::Mechanics;
+use super::record::Trajectory;
+use super::rest_reason::RestReason;
+use super::rounding::{BRUSH, PULLED, SUM, TOUCHED_GAP};
+use super::rub::Rub;
+use super::trajectories::Trajectories;
+use crate::physics::contact::Kind;
+use crate::physics::impact_law::along;
+use crate::physics::model::Model;
+use crate::physics::path::Path;
+use crate::physics::wall::{Part, touch};
+
+impl ContactState {
+    /// How long the bounces of a contact still last, s, whose next would go [`SUMMED_HOP`](super::rounding::SUMMED_HOP)
+    /// high at most: the sum of their flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests; 0 where
+    /// they would change more than the height. Over so short a time, edges, corners and other spheres are as good as faces.
+    pub(crate) fn bounce_series_duration(&self, model: &Model) -> f64 {
+        let (law, wall) = (&model.law, self.key.0 == Kind::Wall);
+        let e = if wall { law.wall_restitution } else { law.restitution };
+        let closed_form = 0.0 < e && e < 1.0 && (!wall || law.tangential == 1.0);
+        if !closed_form || self.a_n >= 0.0 || -self.v_n <= law.rest_speed {
+            return 0.0;
+        }
+        let (speed, press) = (-self.v_n, -self.a_n);
+        let bounces = Bounces { e, tangential: 1.0, speed, press, slip: DVec3::ZERO, pull: DVec3::ZERO };
+        bounces.ending(law.rest_speed / speed).after
+    }
+}
+
+impl Trajectories {
+    /// A sphere that comes back to the face that it left with v_n = w comes back with −√(w² + 2 a_n (gap − gap then)), by
+    /// the gaps as they are stored: the rounding of places by r would otherwise change the energy of the last bounces,
+    /// 1e-5 of it each, and the time that they take.
+    pub(crate) fn restore_bounce_speed(&mut self, model: &Model, before: &Trajectory, contact: &mut ContactState) {
+        let (_, sphere, wall) = contact.key;
+        if !contact.flat || contact.v_n >= 0.0 || contact.a_n >= 0.0 || before.t == self.now {
+            return;
+        }
+        let (then, w) = (touch(&model.faces[wall], before.x, before.r), before.v.dot(contact.normal));
+        let square = w * w + 2.0 * contact.a_n * (contact.gap - then.gap);
+        let came_from_it = then.part == Part::Face && then.gap.abs() <= TOUCHED_GAP * before.r;
+        if w <= 0.0 || square <= 0.0 || !came_from_it {
+            return;
+        }
+        let v_n = -square.sqrt();
+        self.push(sphere, along(contact.normal, v_n - contact.v_n));
+        contact.v_n = v_n;
+    }
+
+    /// The bounces on a wall that follow an impact, whose speeds are those of this moment.
+    fn bounces(&self, model: &Model, contact: &ContactState) -> Bounces {
+        let path = self.path(contact.key.1, self.now);
+        let along_face = |u: DVec3| u - contact.normal * contact.normal.dot(u);
+        Bounces {
+            e: model.law.wall_restitution,
+            tangential: model.law.tangential,
+            speed: -contact.v_n,
+            press: -contact.a_n,
+            slip: along_face(path.v),
+            pull: along_face(path.a),
+        }
+    }
+
+    /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
+    pub(crate) fn is_rounding_approach(&self, contact: &ContactState) -> bool {
+        let (kind, a, b) = contact.key;
+        let path = |i: usize| self.path(i, self.now);
+        let size = |of: fn(&Path) -> DVec3| {
+            of(&path(a)).length() + if kind == Kind::Pair { of(&path(b)).length() } else { 0.0 }
+        };
+        contact.v_n >= -BRUSH * size(|path| path.v) && contact.a_n > SUM * size(|path| path.a)
+    }
+
+    /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where
+    /// the sphere is about to pass over an edge, brings it back no sooner than the clock can tell.
+    pub(crate) fn min_separation_speed(&self, contact: &ContactState) -> f64 {
+        let path = self.path(contact.key.1, self.now);
+        let pressing = (-contact.normal.dot(path.a)).max(0.0);
+        f64::EPSILON * path.v.length() + self.clock_ulp() * pressing
+    }
+}
+
+impl Mechanics {
+    /// Right after an impact on a wall that rubs: if the bounces that follow are too low to be worth a look, the sphere
+    /// goes on along the wall with their mean velocity, and will have, when they are over, the velocity that they leave.
+    pub(crate) fn sum_up(&mut self, model: &Model, contact: &ContactState) {
+        let a = contact.key.1;
+        if !self.leaves_a_series(model, contact) {
+            return;
+        }
+        let bounces = self.trajectories.bounces(model, contact);
+        let lone = contact.flat && self.rests.count(a) == 0;
+        // what else holds the sphere decides how it is pulled: that must not matter before the bounces are over
+        let (still, pulled) = (Bounces { pull: DVec3::ZERO, ..bounces }, bounces.pull.length());
+        let ending = if lone { bounces } else { still }.ending(model.law.rest_speed / -contact.v_n);
+        if !lone && 0.5 * pulled * ending.after * ending.after > PULLED * contact.reach {
+            return;
+        }
+        let share = if lone { bounces.share_of_pull() } else { 1.0 };
+        let change = bounces.pull * (share * ending.after);
+        let mean = ending.way / ending.after - if lone { change * 0.5 } else { DVec3::ZERO };
+        if !mean.is_finite() {
+            // the whole series is over before anything moves
+            return;
+        }
+        let line = *self.trajectories.trajectory(a);
+        self.trajectories.rewrite(a, line.x, mean);
+        let rub = Rub { keeps: ending.keeps, expected: mean + change, slip: ending.slip, share };
+        let until = self.trajectories.now + ending.after;
+        self.rests.add(
+            model,
+            &self.trajectories,
+            &ContactState { v_n: 0.0, ..*contact },
+            RestReason::SeriesSummed,
+            until,
+        );
+        self.rests.rub(contact.key, rub);
+    }
+
+    /// Whether an impact on a wall that rubs, no rounding itself, is followed by bounces that only sums tell apart.
+    fn leaves_a_series(&self, model: &Model, contact: &ContactState) -> bool {
+        let (law, e) = (&model.law, model.law.wall_restitution);
+        let series = contact.key.0 == Kind::Wall && contact.a_n < 0.0 && 0.0 < e && e < 1.0 && law.tangential < 1.0;
+        let hop = contact.v_n * contact.v_n / (-2.0 * contact.a_n);
+        series
+            && e * -contact.v_n > law.rest_speed
+            && e * e * hop <= contact.small_hop()
+            && !contact.hops_within_the_clock(self.trajectories.clock_ulp())
+            && !contact.hops_within_rounding(-contact.a_n)
+    }
+
+    /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
+    /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
+    pub(crate) fn reflect_rounding_approach(&mut self, model: &Model, contact: &ContactState) {
+        let (kind, a, b) = contact.key;
+        let change = -contact.v_n + self.trajectories.min_separation_speed(contact).max(-contact.v_n);
+        if kind == Kind::Wall {
+            self.trajectories.push(a, contact.normal * change);
+        } else {
+            let push = contact.normal * (change / (model.inverse_masses[a] + model.inverse_masses[b]));
+            self.trajectories.push(a, push * model.inverse_masses[a]);
+            self.trajectories.push(b, push * -model.inverse_masses[b]);
+        }
+        self.ensure_separating(model, contact.key, 0.0);
+    }
+}

@@ -1,0 +1,26 @@
+//! What an event has done, as far as the schedule must know.
+
+/// The spheres whose motion an event has changed, by index: the loop predicts them in this order.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Changed {
+    /// None.
+    Nothing,
+    /// The sphere of a contact with a wall.
+    Sphere(usize),
+    /// Both spheres of a pair.
+    Pair([usize; 2]),
+    /// Those of islands.
+    Spheres(Vec<usize>),
+}
+
+impl Changed {
+    /// The spheres.
+    pub(crate) fn spheres(&self) -> &[usize] {
+        match self {
+            Changed::Nothing => &[],
+            Changed::Sphere(sphere) => std::slice::from_ref(sphere),
+            Changed::Pair(pair) => pair,
+            Changed::Spheres(spheres) => spheres,
+        }
+    }
+}

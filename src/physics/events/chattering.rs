@@ -1,0 +1,146 @@
+//! Chatter: small bounces that other contacts keep from dying out, millions of times a second. Spheres wedged against
+//! each other do that as soon as restitution takes energy. The limit of such a cascade is that they rest together.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::contact_state::ContactState;
+use super::islands::resting::Rests;
+use super::rounding::{HOP, SUMMED_HOP};
+use super::trajectories::Trajectories;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::{ContactLaw, Model};
+
+/// The law that takes nothing away: nothing dies out by it.
+const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 };
+
+/// A bounce is small if the gap has opened by less than this many radii since the impact before.
+const SMALL: f64 = 1e-7;
+
+/// So many bounces in a row must not have died out, and so many times 1 / (1 − e): restitution alone would have left e⁻⁵⁰
+/// of their speed. Across less than [`SUMMED_HOP`] the first alone is enough.
+const MANY: u32 = 100;
+pub(super) const DECAY: f64 = 50.0;
+
+/// Elastic bounces in a row that coordinates cannot tell from none.
+const LOST: u32 = 1000;
+
+/// A row is fed if its last impulses are no more than this many times what all bodies weigh meanwhile: whatever is piled
+/// upon them. Those of a chain that ends by itself, in which a fast body is turned round across a small gap, are far more.
+const FED: f64 = 8.0;
+
+/// What each impact leaves of the memory of those before: the last ones are some 64.
+const MEMORY: f64 = 1.0 - 1.0 / 64.0;
+
+/// Small bounces of some contacts, each in a row so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Chatter {
+    rows: BTreeMap<Key, Row>,
+    /// What all spheres weigh, their own forces included, N.
+    weight: f64,
+}
+
+/// A row of small bounces of one contact.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    count: u32,
+    /// How many of them, the last ones, were lower than [`SUMMED_HOP`].
+    tiny: u32,
+    /// When the last of them was, s.
+    last: f64,
+    /// The approach speed (m/s) that it should have had at most, had each lost at least the root of what restitution takes.
+    due: f64,
+    /// The sum of 1 + e times the approach speeds of the last ones (m/s), and how long they took, s.
+    given: f64,
+    took: f64,
+}
+
+impl Row {
+    fn new(now: f64, approach_speed: f64) -> Row {
+        Row { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
+    }
+
+    /// Whether it goes on for ever: without the help of weights that change v_n by `pull` (m/s²) no chain of impacts is so
+    /// long beside what each of them loses.
+    fn is_endless(&self, approach_speed: f64, keeps: f64, pull: f64) -> bool {
+        if keeps == 1.0 {
+            return self.count > LOST && self.is_driven(pull);
+        }
+        let loses = f64::from(self.count) * (1.0 - keeps) > DECAY;
+        self.count > MANY && loses && approach_speed > self.due || self.tiny > MANY && self.is_driven(pull)
+    }
+
+    /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.
+    fn is_driven(&self, pull: f64) -> bool {
+        self.given <= FED * pull * self.took
+    }
+}
+
+impl Chatter {
+    /// No bounces yet.
+    pub(crate) fn new(model: &Model) -> Chatter {
+        let weight = (0..model.len()).map(|i| model.acceleration(i).length() * model.masses[i]).sum();
+        Chatter { rows: BTreeMap::new(), weight }
+    }
+
+    /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
+    /// bodies last changed. A chain of impacts at one instant alone is no such row: nothing has fed it.
+    pub(super) fn is_endless(
+        &mut self,
+        model: &Model,
+        (trajectories, rests): (&Trajectories, &Rests),
+        contact: &ContactState,
+        since: f64,
+    ) -> bool {
+        let pull = self.pull(model, contact.key);
+        if pull == 0.0 || model.law == LOSSLESS {
+            return false;
+        }
+        let (now, approach_speed) = (trajectories.now, -contact.v_n);
+        let since = self.rows.get(&contact.key).map_or(since, |row| row.last);
+        let keeps = speed_kept(model, rests, contact.key);
+        let rounding = HOP * contact.size();
+        let small = if keeps < 1.0 { SMALL * contact.reach } else { rounding };
+        // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
+        let way = 0.25 * approach_speed * (now - since);
+        if way > small {
+            self.rows.remove(&contact.key);
+            return false;
+        }
+        let row = self.rows.entry(contact.key).or_insert(Row::new(now, approach_speed));
+        row.given = MEMORY * row.given + (1.0 + keeps) * approach_speed;
+        row.took = MEMORY * row.took + (now - row.last);
+        row.count = row.count.saturating_add(1);
+        row.tiny = if way <= (SUMMED_HOP * contact.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
+        row.last = now;
+        row.due *= keeps.sqrt();
+        row.is_endless(approach_speed, keeps, pull)
+    }
+
+    /// Whether [`Chatter::is_endless`] would have anything to count, or to forget, in a scene that pulls all spheres alike.
+    #[inline(always)]
+    pub(super) fn may_be_endless(&self, trajectories: &Trajectories, contact: &ContactState, since: f64) -> bool {
+        let fed = trajectories.common() != Some(DVec3::ZERO);
+        let small = (SMALL * contact.reach).max(HOP * contact.size());
+        fed && (!self.rows.is_empty() || -contact.v_n * (trajectories.now - since) <= 4.0 * small)
+    }
+
+    /// How fast all weight of the scene would change v_n, m/s². What nothing pulls dies out, or collapses at one instant.
+    fn pull(&self, model: &Model, (kind, a, b): Key) -> f64 {
+        let other = if kind == Kind::Pair { model.inverse_masses[b] } else { 0.0 };
+        self.weight * (model.inverse_masses[a] + other)
+    }
+}
+
+/// Which share of its speed a small bounce keeps at most if it dies out. An elastic one does so only where one of its
+/// bodies rests on something else too, and what it passes on to that is lost.
+fn speed_kept(model: &Model, rests: &Rests, (kind, a, b): Key) -> f64 {
+    let law = &model.law;
+    let (own, other) = match kind {
+        Kind::Pair => (law.restitution, law.wall_restitution),
+        Kind::Wall => (law.wall_restitution, law.restitution),
+    };
+    let rests = rests.count(a) > 0 || (kind == Kind::Pair && rests.count(b) > 0);
+    if own == 1.0 && rests { other.min(law.tangential) } else { own }
+}

@@ -1,0 +1,141 @@
+//! Two bodies that touch: how they stand and move at one instant.
+
+use glam::DVec3;
+
+use super::record::Trajectory;
+use super::rounding::{CLOCK_ULPS, HOP, SUMMED_HOP};
+use super::trajectories::Trajectories;
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::impact_law::{normal_velocity, pair_normal_velocity};
+use crate::physics::model::Model;
+use crate::physics::path::Path;
+use crate::physics::wall::{Part, curvature, touch};
+use crate::physics::wall_parts::part_ahead;
+
+/// Normal velocities below this share of the speed may be those of a sphere that slides.
+const SLOW: f64 = 1e-6;
+
+/// Two bodies that touch.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ContactState {
+    /// Which two.
+    pub(crate) key: Key,
+    /// Contact point, m.
+    pub(crate) point: DVec3,
+    /// Unit normal, from the contact point to the first sphere's centre.
+    pub(crate) normal: DVec3,
+    /// Gap, m; negative: overlap.
+    pub(crate) gap: f64,
+    /// What the gap is measured by, m: r, or r₁ + r₂.
+    pub(crate) reach: f64,
+    /// Normal velocity, m/s: the predictor's own expression.
+    pub(crate) v_n: f64,
+    /// How fast v_n grows as things are, m/s²; negative: pressed together.
+    pub(crate) a_n: f64,
+    /// Whether that stays so as the bodies move: the face of a wall.
+    pub(crate) flat: bool,
+}
+
+impl ContactState {
+    /// Whether bodies pressed together with `pull` (m/s²) would part by less than coordinates can tell, flying off at the
+    /// speed at which they approach or part.
+    pub(crate) fn hops_within_rounding(&self, pull: f64) -> bool {
+        self.v_n * self.v_n <= 2.0 * pull * HOP * self.size()
+    }
+
+    /// Whether bodies pressed together would be apart for no longer than the clock can tell, of which one ulp is
+    /// `clock_ulp`, s.
+    pub(crate) fn hops_within_the_clock(&self, clock_ulp: f64) -> bool {
+        self.v_n.abs() <= CLOCK_ULPS * -self.a_n * clock_ulp
+    }
+
+    /// How high a hop may be (m) to be one of a series that is summed up: what coordinates resolve, at least, and out of
+    /// an overlap, which hides the rest of the series.
+    pub(crate) fn small_hop(&self) -> f64 {
+        (SUMMED_HOP * self.reach).max(HOP * self.size()).max(-self.gap)
+    }
+
+    /// What rounding of its coordinates is relative to, m.
+    pub(crate) fn size(&self) -> f64 {
+        self.point.abs().max_element().max(self.reach)
+    }
+
+    /// The row of this contact at `time` (s): `impulse` in N s, v_n afterwards in m/s.
+    pub(crate) fn row(&self, time: f64, class: Class, impulse: f64, separation_speed: f64) -> Contact {
+        let (kind, a, b) = self.key;
+        Contact {
+            time,
+            kind,
+            a,
+            b,
+            point: self.point,
+            normal: self.normal,
+            approach_speed: -self.v_n,
+            separation_speed,
+            impulse,
+            degree: -self.gap / self.reach,
+            class,
+        }
+    }
+}
+
+impl Trajectories {
+    /// The bodies of a contact now; their trajectories stay as they are.
+    pub(crate) fn contact_state(&self, model: &Model, key: Key) -> ContactState {
+        let (kind, a, b) = key;
+        match kind {
+            Kind::Wall => self.wall_state(model, key),
+            Kind::Pair => {
+                pair_state(key, [self.trajectory(a), self.trajectory(b)], [a, b].map(|i| self.path(i, self.now)))
+            }
+        }
+    }
+
+    fn wall_state(&self, model: &Model, key: Key) -> ContactState {
+        let (_, a, b) = key;
+        let path = self.path(a, self.now);
+        let (face, r) = (&model.faces[b], self.trajectory(a).r);
+        let at = touch(face, path.x, r);
+        let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
+        // only what may rest asks on which side of a border it will be
+        let slow = v_n.abs() <= SLOW * path.v.length();
+        let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
+        let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
+        let flat = part == Part::Face && at.part == part;
+        ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
+    }
+
+    /// Point, normal and gap only, at `time` (s); v_n and a_n of a wall stay 0, which take far longer to find.
+    pub(crate) fn contact_geometry(&self, model: &Model, key: Key, time: f64) -> ContactState {
+        let (kind, a, b) = key;
+        if kind == Kind::Pair {
+            return pair_state(key, [self.trajectory(a), self.trajectory(b)], [a, b].map(|i| self.path(i, time)));
+        }
+        let reach = self.trajectory(a).r;
+        let at = touch(&model.faces[b], self.path(a, time).x, reach);
+        ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
+    }
+
+    /// The normal velocity of a contact whose trajectories are at the present, m/s.
+    pub(crate) fn v_n(&self, model: &Model, key: Key) -> f64 {
+        let (kind, a, b) = key;
+        if kind == Kind::Wall {
+            return self.contact_state(model, key).v_n;
+        }
+        let (one, two) = (self.trajectory(a), self.trajectory(b));
+        pair_normal_velocity(one.x - two.x, one.v - two.v)
+    }
+}
+
+/// Two spheres on these paths.
+fn pair_state(key: Key, lines: [&Trajectory; 2], [one, two]: [Path; 2]) -> ContactState {
+    let relative = one.relative_to(&two);
+    let [r_a, r_b] = lines.map(|line| line.r);
+    let (reach, distance) = (r_a + r_b, relative.x.length());
+    let (normal, gap) = (relative.x / distance, distance - reach);
+    let v_n = pair_normal_velocity(relative.x, relative.v);
+    let across = relative.v - normal * v_n;
+    let a_n = normal.dot(relative.a) + across.length_squared() / distance;
+    let point = two.x + normal * (r_b + 0.5 * gap);
+    ContactState { key, point, normal, gap, reach, v_n, a_n, flat: false }
+}

@@ -1,0 +1,259 @@
+//! The differential equation of an island of resting contacts, and one step of Runge, Kutta and Fehlberg along it.
+
+use glam::DVec3;
+
+use super::bodies::{Body, Closed, On, geometry};
+use crate::physics::support::{Bodies, Resting, Row, accelerations, bind, restore};
+use crate::physics::wall_parts::{BORDER, room};
+
+/// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
+/// rounding, and less than moves anything by 1e-14 m during an arc.
+const IDLE: f64 = 1e-11;
+
+/// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
+const MAX_IDLE_OPENING: f64 = 1e-6;
+
+/// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
+/// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
+const SUNK: f64 = 1e-13;
+
+/// Overlaps up to so many radii are healed; deeper ones are the scene's.
+const HEALED: f64 = 1e-10;
+
+/// The differential equation of an island while the contacts that carry a load now go on holding.
+pub(crate) struct ConstrainedMotion<'a> {
+    holding: Vec<Closed<'a>>,
+    /// The gaps to keep, m: what rounding, or the scene, has left of 0. Nothing must jump, but of small overlaps half is
+    /// healed by every arc: where a contact opens and closes over and over, they would add up.
+    gaps: Vec<f64>,
+    /// Contacts that stay closed without carrying anything.
+    idle: Vec<Closed<'a>>,
+    inverse_mass: Vec<f64>,
+}
+
+impl<'a> ConstrainedMotion<'a> {
+    /// The motion from `bodies` on while the loaded contacts hold.
+    pub(crate) fn held_by(bodies: &[Body], contacts: &[Closed<'a>], loaded: &[bool]) -> ConstrainedMotion<'a> {
+        let pick = |wanted: bool| {
+            let of = |(_, loaded): &(&Closed<'a>, &bool)| **loaded == wanted;
+            contacts.iter().zip(loaded).filter(of).map(|(&contact, _)| contact).collect()
+        };
+        let (holding, idle): (Vec<Closed<'a>>, _) = (pick(true), pick(false));
+        let kept = |contact: &Closed| {
+            let gap = geometry(bodies, *contact).1;
+            let small = -HEALED * bodies[contact.a].r;
+            if gap < 0.0 && gap > small { 0.5 * gap } else { gap }
+        };
+        let gaps = holding.iter().map(kept).collect();
+        ConstrainedMotion { holding, gaps, idle, inverse_mass: bodies.iter().map(|body| body.inverse_mass).collect() }
+    }
+
+    /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
+    fn rows(&self, bodies: &[Body], offset: impl Fn(f64, f64) -> f64) -> Vec<Row> {
+        self.holding.iter().map(|&contact| row(bodies, contact, &offset)).collect()
+    }
+
+    /// Accelerations, m/s², and forces of the holding contacts, N.
+    pub(crate) fn accelerations(&self, bodies: &[Body]) -> (Vec<DVec3>, Vec<f64>) {
+        let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
+        bind(&self.inverse_mass, &applied, &self.rows(bodies, |_, curvature| curvature))
+    }
+
+    /// The bodies `h` seconds later.
+    pub(crate) fn step_rkf8(&self, start: &[Body], h: f64) -> Vec<Body> {
+        self.stepped(start, h, &STAGES, &ORDER_8)
+    }
+
+    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
+    /// rounding.
+    pub(crate) fn step_rk4(&self, start: &[Body], h: f64) -> Vec<Body> {
+        self.stepped(start, h, &CLASSICAL, &ORDER_4)
+    }
+
+    fn stepped(&self, start: &[Body], h: f64, stages: &[&[f64]], result: &[f64]) -> Vec<Body> {
+        let mut slopes: Vec<Vec<(DVec3, DVec3)>> = Vec::with_capacity(stages.len());
+        for weights in stages {
+            let at = weighted(start, h, weights, &slopes);
+            let a = self.accelerations(&at).0;
+            slopes.push(at.iter().zip(a).map(|(body, a)| (body.v, a)).collect());
+        }
+        let mut end = weighted(start, h, result, &slopes);
+        self.restore(&mut end);
+        end
+    }
+
+    /// Puts the bodies back on the holding contacts by the least change in the metric of the masses: gaps as they were,
+    /// J v = 0. The gap left by a step is so small that one step of Newton's method closes it.
+    pub(crate) fn restore(&self, bodies: &mut [Body]) {
+        let still = vec![DVec3::ZERO; bodies.len()];
+        let mut rows = self.rows(bodies, |gap, _| gap);
+        rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
+        let shift = restore(&self.inverse_mass, &still, &rows);
+        bodies.iter_mut().zip(shift).for_each(|(body, shift)| body.x += shift);
+        self.restore_velocities(bodies);
+    }
+
+    pub(crate) fn restore_velocities(&self, bodies: &mut [Body]) {
+        let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let v = restore(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0));
+        bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+    }
+
+    /// What later margins are measured from.
+    pub(crate) fn marks(&self, bodies: &[Body]) -> Marks {
+        let openings = self.openings(bodies, &self.accelerations(bodies).0);
+        Marks { rooms: self.rooms(bodies), openings, gaps: self.idle_gaps(bodies) }
+    }
+
+    /// Distance of each contact, holding ones before idle ones, from where another part of its wall takes over, in radii;
+    /// ∞ for pairs. An idle contact counts too: on the edge that two walls share, the one that carries nothing takes over
+    /// when the sphere rolls on to its face.
+    pub(crate) fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
+        let of = |contact: &Closed| match contact.on {
+            On::Wall(face, part) => room(face, part, bodies[contact.a].x) / bodies[contact.a].r,
+            On::Body(_) => f64::INFINITY,
+        };
+        self.holding.iter().chain(&self.idle).map(of).collect()
+    }
+
+    /// Gaps of the idle contacts, in radii.
+    fn idle_gaps(&self, bodies: &[Body]) -> Vec<f64> {
+        self.idle.iter().map(|&contact| geometry(bodies, contact).1 / bodies[contact.a].r).collect()
+    }
+
+    /// J a + k of the idle contacts, in units of the applied acceleration.
+    pub(crate) fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
+        let of = |&contact: &Closed| {
+            let row = row(bodies, contact, &|_, curvature| curvature);
+            let relative = a[row.a] - row.b.map_or(DVec3::ZERO, |b| a[b]);
+            (row.normal.dot(relative) + row.offset) / pull(bodies)
+        };
+        self.idle.iter().map(of).collect()
+    }
+
+    /// The least that is left before something changes: load as an acceleration in units of what is applied; room in
+    /// radii, where what began at the border or beyond counts only if it has gone on outwards, beyond rounding; what an
+    /// idle contact may still open or close.
+    pub(crate) fn distance_to_change(&self, bodies: &[Body], before: &Marks) -> f64 {
+        let (a, forces) = self.accelerations(bodies);
+        let loads = self.holding.iter().zip(forces);
+        let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
+        let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
+        let rooms = self.rooms(bodies).into_iter().zip(&before.rooms).map(outwards);
+        let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
+        let idle = openings.map(|(opening, before)| {
+            let closing = IDLE + opening - before.min(0.0);
+            closing.min(MAX_IDLE_OPENING + before.max(0.0) - opening)
+        });
+        let sunk = |(gap, before): (f64, &f64)| gap - before.min(0.0) + SUNK;
+        let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).map(sunk);
+        loads.chain(rooms).chain(idle).chain(gaps).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Which contacts carry a load now.
+pub(crate) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
+    let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+    let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+    let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
+    let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
+    let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+    accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
+}
+
+/// Rooms, openings and gaps of idle contacts at the beginning of an arc.
+pub(crate) struct Marks {
+    rooms: Vec<f64>,
+    openings: Vec<f64>,
+    gaps: Vec<f64>,
+}
+
+/// Largest applied acceleration, m/s²: the unit of loads.
+pub(crate) fn pull(bodies: &[Body]) -> f64 {
+    bodies.iter().map(|body| body.applied.length()).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// A contact as a row; its offset is chosen from (gap in m, k in m/s²).
+fn row(bodies: &[Body], contact: Closed, offset: &impl Fn(f64, f64) -> f64) -> Row {
+    let (resting, gap) = geometry(bodies, contact);
+    let relative = bodies[resting.a].v - resting.b.map_or(DVec3::ZERO, |b| bodies[b].v);
+    let curvature = resting.surface.curvature_term(resting.normal, relative);
+    Row { a: resting.a, b: resting.b, normal: resting.normal, offset: offset(gap, curvature) }
+}
+
+/// The start moved on by h Σ wᵢ kᵢ.
+fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3)>]) -> Vec<Body> {
+    let moved = |(i, body): (usize, &Body)| {
+        let (mut dx, mut dv) = (DVec3::ZERO, DVec3::ZERO);
+        for (&weight, slopes) in weights.iter().zip(slopes).filter(|(weight, _)| **weight != 0.0) {
+            dx += slopes[i].0 * weight;
+            dv += slopes[i].1 * weight;
+        }
+        Body { x: body.x + dx * h, v: body.v + dv * h, ..*body }
+    };
+    start.iter().enumerate().map(moved).collect()
+}
+
+/// Weights of the stages of the classical method, each over the stages before it.
+const CLASSICAL: [&[f64]; 4] = [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
+
+/// Weights of its result.
+const ORDER_4: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+
+/// Weights of the stages of RKF 7(8), each over the stages before it.
+const STAGES: [&[f64]; 13] = [
+    &[],
+    &[2.0 / 27.0],
+    &[1.0 / 36.0, 1.0 / 12.0],
+    &[1.0 / 24.0, 0.0, 1.0 / 8.0],
+    &[5.0 / 12.0, 0.0, -25.0 / 16.0, 25.0 / 16.0],
+    &[1.0 / 20.0, 0.0, 0.0, 1.0 / 4.0, 1.0 / 5.0],
+    &[-25.0 / 108.0, 0.0, 0.0, 125.0 / 108.0, -65.0 / 27.0, 125.0 / 54.0],
+    &[31.0 / 300.0, 0.0, 0.0, 0.0, 61.0 / 225.0, -2.0 / 9.0, 13.0 / 900.0],
+    &[2.0, 0.0, 0.0, -53.0 / 6.0, 704.0 / 45.0, -107.0 / 9.0, 67.0 / 90.0, 3.0],
+    &[-91.0 / 108.0, 0.0, 0.0, 23.0 / 108.0, -976.0 / 135.0, 311.0 / 54.0, -19.0 / 60.0, 17.0 / 6.0, -1.0 / 12.0],
+    &[
+        2383.0 / 4100.0,
+        0.0,
+        0.0,
+        -341.0 / 164.0,
+        4496.0 / 1025.0,
+        -301.0 / 82.0,
+        2133.0 / 4100.0,
+        45.0 / 82.0,
+        45.0 / 164.0,
+        18.0 / 41.0,
+    ],
+    &[3.0 / 205.0, 0.0, 0.0, 0.0, 0.0, -6.0 / 41.0, -3.0 / 205.0, -3.0 / 41.0, 3.0 / 41.0, 6.0 / 41.0, 0.0],
+    &[
+        -1777.0 / 4100.0,
+        0.0,
+        0.0,
+        -341.0 / 164.0,
+        4496.0 / 1025.0,
+        -289.0 / 82.0,
+        2193.0 / 4100.0,
+        51.0 / 82.0,
+        33.0 / 164.0,
+        12.0 / 41.0,
+        0.0,
+        1.0,
+    ],
+];
+
+/// Weights of the result of order 8.
+const ORDER_8: [f64; 13] = [
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    34.0 / 105.0,
+    9.0 / 35.0,
+    9.0 / 35.0,
+    9.0 / 280.0,
+    9.0 / 280.0,
+    0.0,
+    41.0 / 840.0,
+    41.0 / 840.0,
+];

@@ -1,0 +1,10 @@
+//! Curved rest: islands whose spheres slide over edges, corners or each other, and have no parabola.
+//!
+//! `bodies` is an island as the solvers see it; `equation` its differential equation and one step along it; `arc` a stretch
+//! of the motion during which the same contacts hold, and the chords that stand for it; `hermite` the polynomial between
+//! the ends of an arc.
+
+pub(super) mod arc;
+pub(super) mod bodies;
+mod equation;
+mod hermite;

@@ -1,0 +1,294 @@
+//! The event loop: a thin one, between the schedule, which knows what comes next, and the mechanics, which know what becomes
+//! of it.
+//!
+//! Take the earliest event of all (ties: walls, pairs, ends of parabolas, crossings of cells; then a, then b), advance the
+//! clock to it, let the mechanics act, predict anew the spheres that they say have changed. When no contact is left at an
+//! instant, islands of resting contacts are solved. Frames only say where to pause, and reading never rewrites anything:
+//! neither changes a bit of the run.
+
+use super::changed::Changed;
+use super::detector::Detector;
+use super::mechanics::Mechanics;
+use super::rest_reason::RestReason;
+use super::schedule::entry::{EventKind, event_kind};
+use super::schedule::parts::Schedule;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::log::Log;
+use crate::physics::method::{Progress, Until};
+use crate::physics::model::{Model, Settings};
+use crate::physics::state::{Stall, State};
+
+/// Spheres beyond this many are kept in cells.
+const FEW: usize = 64;
+
+/// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
+/// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
+const MOST_IDLE: f64 = (1_u64 << 30) as f64;
+
+/// Events at the very start after which the rest is left to the first frame.
+const MOST_AT_LOAD: usize = 1_000_000;
+
+/// A run, event by event.
+#[derive(Debug, Clone)]
+pub(crate) struct EventDriven<D> {
+    settings: Settings,
+    frame: Frame,
+    /// When the next event of every sphere is.
+    pub(super) schedule: Schedule<D>,
+    /// What events act on.
+    pub(super) mechanics: Mechanics,
+}
+
+/// What one single-step shows: up to the next event, or dt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Frame {
+    /// End of the last complete frame, s.
+    time: f64,
+    /// Its length, s.
+    step: f64,
+    /// Whether the next one is under way.
+    open: bool,
+    /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
+    goal: f64,
+    /// Where the frame under way ends if nothing happens before, s.
+    end: f64,
+}
+
+impl Frame {
+    /// Between frames at `time`, s.
+    fn at(time: f64) -> Frame {
+        Frame { time, step: 0.0, open: false, goal: f64::NEG_INFINITY, end: f64::MAX }
+    }
+
+    /// A frame is dt long, and so long at least that the clock moves on.
+    fn set_end(&mut self, dt: f64) {
+        self.end = (self.time + dt).max(self.time.next_up()).max(self.goal).min(f64::MAX);
+    }
+}
+
+/// What became of one turn of the loop.
+enum Turn {
+    /// An event was handled.
+    Event,
+    /// The frame in progress is complete.
+    Frame,
+}
+
+impl<D: Detector> EventDriven<D> {
+    /// A run from `state` on, whose contacts are handled already.
+    pub(crate) fn begin(model: &Model, settings: Settings, state: &State, log: &mut Log) -> EventDriven<D> {
+        let mut engine = EventDriven {
+            settings,
+            frame: Frame::at(state.t),
+            schedule: Schedule::new(D::new(settings), model.len(), state.t),
+            mechanics: Mechanics::new(model, state),
+        };
+        let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = &mut engine;
+        if model.len() > FEW {
+            schedule.lay_out(model, trajectories, rests);
+        }
+        engine.load(model, log);
+        engine.mechanics.trajectories.forget_past();
+        engine
+    }
+
+    /// Goes on for about `work` events, or to the goal.
+    pub(crate) fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
+        self.frame.goal = match until {
+            Until::Time(t) if t.is_finite() && t - self.frame.time > MOST_IDLE * self.settings.dt => t,
+            _ => f64::NEG_INFINITY,
+        };
+        self.frame.set_end(self.settings.dt);
+        for _ in 0..work {
+            if !self.frame.open {
+                if matches!(until, Until::Time(t) if t <= self.frame.time) {
+                    return Progress::Reached;
+                }
+                self.open_frame(log);
+            }
+            match self.turn(model, log) {
+                Ok(Turn::Event) => {}
+                Ok(Turn::Frame) if until == Until::Frame => return Progress::Reached,
+                Ok(Turn::Frame) => {}
+                Err(stall) => return Progress::Stalled(stall),
+            }
+        }
+        match until {
+            Until::Time(t) if !self.frame.open && t <= self.frame.time => Progress::Reached,
+            _ => Progress::Yielded,
+        }
+    }
+
+    /// Goes on for about `work` events without keeping what they tell; whether everything up to `until` (s) has happened, or nothing more
+    /// can.
+    pub(super) fn repeat(&mut self, model: &Model, log: &mut Log, until: f64, work: u64) -> bool {
+        for _ in 0..work {
+            if self.schedule.queue.earliest().0 > until && !self.mechanics.rests.is_dirty() {
+                return true;
+            }
+            if !self.frame.open {
+                self.open_frame(log);
+            }
+            // a stall shows itself again in the next frame
+            if self.turn(model, log).is_err() {
+                return true;
+            }
+            log.events.clear();
+        }
+        false
+    }
+
+    /// Counts frames from `time` (s) on, with these settings, as if the run had ended a frame there.
+    pub(super) fn begin_frames_at(&mut self, time: f64, settings: Settings) {
+        self.settings = settings;
+        self.frame = Frame::at(time);
+        self.mechanics.forget_past();
+        self.mechanics.rests.forget_curved_time(time);
+        self.mechanics.rests.begin_frame(time);
+        self.schedule.evaluations = 0;
+    }
+
+    /// Takes other settings from the next frame on; whether they change the run.
+    pub(crate) fn retune(&mut self, model: &Model, settings: Settings) -> bool {
+        self.settings = settings;
+        let changes = self.schedule.detector.retune(settings);
+        if changes {
+            let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+            self.schedule.predict_all(model, trajectories, rests);
+        }
+        changes
+    }
+
+    /// What is being solved with.
+    pub(super) fn settings(&self) -> Settings {
+        self.settings
+    }
+
+    /// Time at the end of the last frame, s.
+    pub(crate) fn time(&self) -> f64 {
+        self.frame.time
+    }
+
+    /// Length of the last frame, s.
+    pub(crate) fn step(&self) -> f64 {
+        self.frame.step
+    }
+
+    /// The state at `t` (s) within the last frame.
+    pub(crate) fn at(&self, model: &Model, t: f64) -> State {
+        self.mechanics.state_at(model, t.clamp(self.frame.time - self.frame.step, self.frame.time))
+    }
+
+    /// Why a contact rests; none if it does not.
+    pub(crate) fn rest_reason(&self, key: Key) -> Option<RestReason> {
+        self.mechanics.rests.reason(key)
+    }
+
+    /// Handles what touches at the start, in the order of events, and predicts everything.
+    fn load(&mut self, model: &Model, log: &mut Log) {
+        self.mechanics.meet_at_load(model, log, self.schedule.cells.as_deref());
+        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+        self.schedule.predict_all(model, trajectories, rests);
+        for _ in 0..MOST_AT_LOAD {
+            let next = self.schedule.queue.earliest().0;
+            let idle = next > self.mechanics.trajectories.now && !self.mechanics.rests.is_dirty();
+            if idle || self.turn(model, log).is_err() {
+                break;
+            }
+        }
+        log.contacts.clear();
+    }
+
+    fn open_frame(&mut self, log: &mut Log) {
+        self.frame.open = true;
+        self.frame.set_end(self.settings.dt);
+        self.mechanics.forget_past();
+        log.contacts.clear();
+        log.probes.clear();
+    }
+
+    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
+        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+        let looked_at = std::mem::take(&mut self.schedule.evaluations);
+        self.schedule.detector.report(self.frame.time, end, looked_at, log);
+        rests.list(model, trajectories, log, end);
+        self.frame = Frame { time: end, step: end - self.frame.time, open: false, ..self.frame };
+        log.tallies.frames += 1;
+        log.tallies.inexact_time = rests.curved_time(end);
+        Turn::Frame
+    }
+
+    /// One event, or the end of the frame.
+    fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
+        let EventDriven { schedule, mechanics, .. } = self;
+        let Mechanics { trajectories, rests, impacts } = mechanics;
+        let (time, slot) = schedule.take_next(trajectories, rests);
+        let (kind, now) = (event_kind(trajectories, rests, time, slot), trajectories.now);
+        if rests.is_dirty() && (time > now || kind != EventKind::Contact) {
+            let changed = mechanics.settle(model, log)?;
+            self.predict(model, &changed);
+            return Ok(Turn::Event);
+        }
+        if !log.contacts.is_empty() && time > now && now > self.frame.time {
+            schedule.put_back((time, slot));
+            return Ok(self.close_frame(model, log, now));
+        }
+        if time > self.frame.end {
+            schedule.put_back((time, slot));
+            return Ok(self.close_frame(model, log, self.frame.end));
+        }
+        impacts.instant.advance_clock(trajectories, time)?;
+        schedule.prefetch(trajectories);
+        match kind {
+            EventKind::Contact => self.contact(model, log, slot)?,
+            EventKind::IslandEnd => {
+                let changed = mechanics.end_parabola(model, mechanics.trajectories.sphere(slot));
+                self.predict(model, &changed);
+            }
+            EventKind::Crossing => schedule.cross(model, trajectories, rests, slot),
+        }
+        let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = self;
+        if schedule.is_worn() {
+            schedule.review(model, trajectories, rests);
+        }
+        Ok(Turn::Event)
+    }
+
+    /// The contact that the sphere at a slot planned is due.
+    #[inline(always)]
+    fn contact(&mut self, model: &Model, log: &mut Log, slot: usize) -> Result<(), Stall> {
+        let EventDriven { schedule, mechanics, .. } = self;
+        let Mechanics { trajectories, rests, .. } = mechanics;
+        let plan = trajectories.records[slot].plan;
+        let stale =
+            plan.kind == Kind::Pair && trajectories.records[plan.other as usize].motion_version != plan.motion_version;
+        let rested = !rests.is_empty() && rests.holds(trajectories.key(slot, &plan));
+        if !plan.is_contact || stale || rested {
+            schedule.predict_due(model, trajectories, rests, slot);
+            return Ok(());
+        }
+        if mechanics.collide_plain_pair(model, log, slot, &plan)? {
+            let Mechanics { trajectories, rests, .. } = mechanics;
+            schedule.predict(model, trajectories, rests, plan.other as usize);
+            schedule.predict_due(model, trajectories, rests, slot);
+            return Ok(());
+        }
+        let key = mechanics.trajectories.key(slot, &plan);
+        let changed = mechanics.meet(model, log, key)?;
+        self.predict(model, &changed);
+        // whatever became of the contact, this plan is used up
+        if !changed.spheres().contains(&self.mechanics.trajectories.sphere(slot)) {
+            let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+            self.schedule.predict_due(model, trajectories, rests, slot);
+        }
+        Ok(())
+    }
+
+    /// Predicts the spheres that an event has changed.
+    fn predict(&mut self, model: &Model, changed: &Changed) {
+        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+        for &i in changed.spheres() {
+            self.schedule.predict(model, trajectories, rests, trajectories.slot(i));
+        }
+    }
+}

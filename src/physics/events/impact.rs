@@ -1,0 +1,110 @@
+//! A contact happens: the impact law acts, or a rest may begin.
+
+use super::changed::Changed;
+use super::contact_state::ContactState;
+use super::mechanics::Mechanics;
+use super::rest_criteria::Verdict;
+use super::rest_reason::RestReason;
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::impact_law::{along, pair_push, separation_speed};
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::state::Stall;
+
+/// Most contacts that a frame lists, a hundred megabytes: a chain of impacts at one instant may have more, which are
+/// counted and told as events all the same.
+const MOST_ROWS: usize = 1 << 20;
+
+/// Tells the log of an impact.
+#[inline]
+pub(super) fn note(log: &mut Log, row: Contact) {
+    log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
+    if log.contacts.len() < MOST_ROWS {
+        log.contacts.push(row);
+    }
+    log.event(row);
+}
+
+impl Mechanics {
+    /// Two bodies touch while they approach, or are pressed together: an impact, or a rest that may begin.
+    pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
+        let before = *self.trajectories.trajectory(key.1);
+        let since = if key.0 == Kind::Pair { before.t.max(self.trajectories.trajectory(key.2).t) } else { before.t };
+        let mut contact = self.advanced_contact(model, key);
+        self.trajectories.restore_bounce_speed(model, &before, &mut contact);
+        if self.is_squeezed(model, &contact) {
+            return Ok(Changed::Nothing);
+        }
+        match self.verdict(model, log, &contact, since) {
+            Verdict::Collide => self.collide(model, log, &contact),
+            // an island that takes that back brings it again: the two are solved together then
+            Verdict::Rest(_)
+                if self.trajectories.is_rounding_approach(&contact) && !self.impacts.instant.is_stuck(key) =>
+            {
+                self.reflect_rounding_approach(model, &contact);
+                self.break_rests(model, log, key)
+            }
+            Verdict::Rest(reason) => {
+                let until = self.trajectories.now + contact.bounce_series_duration(model);
+                self.rests.add(model, &self.trajectories, &contact, reason, until);
+                Ok(Changed::Nothing)
+            }
+            Verdict::Leave => {
+                if contact.a_n >= 0.0 {
+                    self.ensure_separating(model, key, self.trajectories.min_separation_speed(&contact));
+                }
+                Ok(Changed::Nothing)
+            }
+        }
+    }
+
+    /// An impact: both bodies get their impulse.
+    fn collide(&mut self, model: &Model, log: &mut Log, contact: &ContactState) -> Result<Changed, Stall> {
+        let (kind, a, b) = contact.key;
+        let trajectories = &mut self.trajectories;
+        let target = separation_speed(contact.v_n, Class::Collide, kind, &model.law);
+        let change = target - contact.v_n;
+        let impulse = match kind {
+            Kind::Wall => {
+                let v = trajectories.trajectory(a).v;
+                let slip = (v - contact.normal * contact.v_n) * (model.law.tangential - 1.0);
+                trajectories.push(a, along(contact.normal, change) + slip);
+                change * model.masses[a]
+            }
+            Kind::Pair => {
+                let (one, two) = (*trajectories.trajectory(a), *trajectories.trajectory(b));
+                let (arm, w) = (one.x - two.x, one.v - two.v);
+                let (share_a, share_b) = (trajectories.inverse_mass(a), trajectories.inverse_mass(b));
+                let share = share_a + share_b;
+                let push = pair_push(arm, w, share, model.law.restitution);
+                trajectories.push(a, push * share_a);
+                trajectories.push(b, push * -share_b);
+                change / share
+            }
+        };
+        self.ensure_separating(model, contact.key, 0.0);
+        let row = contact.row(self.trajectories.now, Class::Collide, impulse, target);
+        note(log, row);
+        self.impacts.instant.count_impact(&self.trajectories, contact);
+        let changed = self.break_rests(model, log, contact.key)?;
+        if target == 0.0 && contact.a_n < 0.0 {
+            // from an ulp above the face it would take √(2 ulp/g) to fall
+            let stopped = ContactState { v_n: 0.0, ..*contact };
+            self.rests.add(model, &self.trajectories, &stopped, RestReason::Stopped, self.trajectories.now);
+        }
+        self.sum_up(model, contact);
+        Ok(changed)
+    }
+
+    /// The bodies of a contact have got new velocities: rests that this breaks end, and what others planned with them is
+    /// stale.
+    fn break_rests(&mut self, model: &Model, log: &mut Log, (kind, a, b): Key) -> Result<Changed, Stall> {
+        let changed = if kind == Kind::Pair { Changed::Pair([a, b]) } else { Changed::Sphere(a) };
+        for &i in changed.spheres() {
+            self.trajectories.check_range(i)?;
+            self.trajectories.mark_changed(i);
+            self.disturb(model, log, i);
+        }
+        Ok(changed)
+    }
+}

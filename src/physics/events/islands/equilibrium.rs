@@ -1,0 +1,235 @@
+//! Equilibrium: which contacts of an island hold, and how its spheres move until something changes.
+//!
+//! Spheres that rest on faces move on parabolas that keep their distance: one face leaves two directions, a crease one,
+//! a corner none. Spheres that rest on each other, on edges or on corners do so too as long as the normals of those
+//! contacts stand still: a stack, a row sliding down a slope, a sphere sliding along an edge. Otherwise the motion is
+//! curved (`curved`).
+
+use glam::DVec3;
+
+use crate::physics::events::curved::bodies::{Body, Closed, geometry};
+use crate::physics::events::rounding::{HOP, SUM};
+use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
+
+/// A contact of a curved island that opens by no more than this share of the accelerations is looked at again after
+/// every step.
+const BARELY: f64 = 1e-3;
+
+/// Cosine of the angle between the normals of contacts that oppose each other: within a millirad of straight.
+const OPPOSED: f64 = -1.0 + 1e-6;
+
+/// How much more than rounding it may cost to stop what opens by no more than rounding.
+const DEAR: f64 = 10.0;
+
+/// An island after both complementarity problems.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Settled {
+    /// Accelerations, m/s², by body; those of this instant if the motion is curved.
+    pub(crate) a: Vec<DVec3>,
+    /// Impulses that stopped what still approached, N s, by contact.
+    pub(crate) impulses: Vec<f64>,
+    /// Normal velocities before they were stopped, m/s, by contact.
+    pub(crate) v_n: Vec<f64>,
+    /// Whether the impulse of a contact changed a velocity by more than what counts as closed.
+    pub(crate) struck: Vec<bool>,
+    /// Support forces, N, by contact.
+    pub(crate) forces: Vec<f64>,
+    /// What becomes of every contact.
+    pub(crate) fate: Vec<Fate>,
+    /// Whether some contact that holds turns.
+    pub(crate) curved: bool,
+    /// Whether both problems were solved to rounding.
+    pub(crate) converged: bool,
+}
+
+/// Stops what still approaches, and finds what holds and how the island moves. Changes the velocities.
+///
+/// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
+/// clock or the coordinates can tell is closed.
+pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
+    let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+    let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+    let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
+    let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
+    let stopped = velocities(all, if only_fits(&resting, &velocity) { &[] } else { &resting });
+    for (place, &body) in stopped.bodies.iter().enumerate() {
+        bodies[body].v = stopped.vectors[place];
+    }
+    let slack: Vec<f64> =
+        bodies.iter().zip(&velocity).map(|(body, &v)| closed_speed(&Body { v, ..*body }, tick)).collect();
+    let opens = |contact: &Resting| {
+        let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
+        relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
+    };
+    let closed: Vec<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
+    let touching: Vec<Resting> = closed.iter().map(|&index| resting[index]).collect();
+    let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &[]);
+    let impulses = if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() };
+    let strikes = |(contact, impulse): (&Resting, &f64)| {
+        let change = |body: usize| impulse * inverse_mass[body] > slack[body];
+        change(contact.a) || contact.b.is_some_and(change)
+    };
+    let mut settled = Settled {
+        a: applied.clone(),
+        struck: resting.iter().zip(&impulses).map(strikes).collect(),
+        v_n: resting.iter().map(|contact| relative(contact, &|body| velocity[body]).dot(contact.normal)).collect(),
+        impulses,
+        forces: vec![0.0; contacts.len()],
+        fate: vec![Fate::Opening; contacts.len()],
+        curved: false,
+        converged: stopped.converged() && held.converged(),
+    };
+    for (place, &body) in held.bodies.iter().enumerate() {
+        settled.a[body] = held.vectors[place];
+    }
+    for (place, &index) in closed.iter().enumerate() {
+        settled.forces[index] = held.multipliers[place];
+    }
+    let turns = |contact: &Resting| settled.turns(contact, bodies);
+    settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && turns(&resting[index]));
+    for &index in &closed {
+        settled.fate[index] = settled.fate_of(index, &resting[index], bodies);
+    }
+    settled.clear_normal_velocity(bodies, &inverse_mass, &resting, &slack);
+    settled.stop(bodies, tick);
+    settled.let_go(bodies, &resting);
+    settled
+}
+
+/// Whether nothing approaches but by rounding, and a body lies between two contacts that oppose each other: at the ends of
+/// two walls that a sphere just fits, to stop that much would take all of its speed.
+fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
+    let approaches = |contact: &Resting| {
+        let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -SUM * speed
+    };
+    let opposes = |(one, other): (&Resting, &Resting)| one.a == other.a && one.normal.dot(other.normal) < OPPOSED;
+    let pairs = || resting.iter().enumerate().flat_map(|(k, one)| resting[..k].iter().map(move |other| (one, other)));
+    pairs().any(opposes) && !resting.iter().any(approaches)
+}
+
+/// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
+/// (`tick`, s) or the coordinates can tell.
+pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
+    let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
+    tick * pull + SUM * body.v.length() + (2.0 * pull * HOP * size).sqrt()
+}
+
+/// u of the first body less u of the second.
+fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
+    u(contact.a) - contact.b.map_or(DVec3::ZERO, u)
+}
+
+impl Settled {
+    /// What becomes of a contact that is closed.
+    fn fate_of(&self, index: usize, contact: &Resting, bodies: &[Body]) -> Fate {
+        if self.forces[index] > 0.0 {
+            return Fate::Loaded;
+        }
+        let v = relative(contact, &|body| bodies[body].v);
+        let a = relative(contact, &|body| self.a[body]);
+        let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
+        let noise = self.noise(contact, bodies);
+        if self.curved && opening <= BARELY / SUM * noise {
+            // the chord that stands for a curved motion could press it: it stays until the next step looks again
+            return Fate::Idle;
+        }
+        // unpressed and turning, it lets go: the next approach is a contact like any other
+        if opening > noise || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
+    }
+
+    /// Size of the rounding of relative accelerations, m/s².
+    fn noise(&self, contact: &Resting, bodies: &[Body]) -> f64 {
+        let of = |body: usize| bodies[body].applied.length() + self.a[body].length();
+        SUM * (of(contact.a) + contact.b.map_or(0.0, of))
+    }
+
+    /// Whether the normal of a contact turns: its bodies move, or begin to move, past each other.
+    fn turns(&self, contact: &Resting, bodies: &[Body]) -> bool {
+        let speed = |body: usize| bodies[body].v.length();
+        let noise = SUM * (speed(contact.a) + contact.b.map_or(0.0, speed));
+        turning(contact, relative(contact, &|body| bodies[body].v)).length() > noise
+            || turning(contact, relative(contact, &|body| self.a[body])).length() > self.noise(contact, bodies)
+    }
+
+    /// Takes what rounding left of the velocities of an island that has come to rest: less than its weight would give it
+    /// before the clock can tell. Nothing turns then.
+    fn stop(&mut self, bodies: &mut [Body], tick: f64) {
+        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= tick * body.applied.length();
+        if bodies.iter().zip(&self.a).all(rests) {
+            bodies.iter_mut().for_each(|body| body.v = DVec3::ZERO);
+            self.curved = false;
+        }
+    }
+
+    /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
+    /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
+    /// push one body alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
+    /// stand still on both would stop the motion along them, and the one that opens lets go instead.
+    fn clear_normal_velocity(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
+        let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let mut holds: Vec<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
+        let mut v = before.clone();
+        loop {
+            let rows: Vec<Row> = (resting.iter().zip(&holds))
+                .filter(|(_, holds)| **holds)
+                .map(|(contact, _)| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 })
+                .collect();
+            if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
+                v = bind(inverse_mass, &before, &rows).0;
+            }
+            let approaches = |index: usize| {
+                let contact = &resting[index];
+                let noise = SUM * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
+                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
+                may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
+            };
+            let new: Vec<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
+            if new.is_empty() {
+                break;
+            }
+            new.into_iter().for_each(|index| holds[index] = true);
+        }
+        let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
+        let opens = |index: usize| {
+            let noise = SUM * before[resting[index].a].length();
+            holds[index] && relative(&resting[index], &|body| before[body]).dot(resting[index].normal) > noise
+        };
+        let opening: Vec<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
+        if !opening.is_empty() && v.iter().enumerate().any(costs) {
+            opening.into_iter().for_each(|index| self.fate[index] = Fate::Opening);
+            return;
+        }
+        bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+        let closes = |(fate, holds): (&mut Fate, bool)| {
+            if holds && *fate == Fate::Opening {
+                *fate = Fate::Idle;
+            }
+        };
+        self.fate.iter_mut().zip(holds).for_each(closes);
+    }
+
+    /// An idle contact whose bodies drift apart lets go, however slowly: what would meet there again must be seen.
+    fn let_go(&mut self, bodies: &[Body], resting: &[Resting]) {
+        if self.curved {
+            return;
+        }
+        for (contact, fate) in resting.iter().zip(&mut self.fate).filter(|(_, fate)| **fate == Fate::Idle) {
+            let speed = bodies[contact.a].v.length() + contact.b.map_or(0.0, |b| bodies[b].v.length());
+            if relative(contact, &|body| bodies[body].v).dot(contact.normal) > SUM * speed {
+                *fate = Fate::Opening;
+            }
+        }
+    }
+}
+
+/// The part of a relative vector that turns the normal of a contact.
+fn turning(contact: &Resting, u: DVec3) -> DVec3 {
+    let tangential = u - contact.normal * contact.normal.dot(u);
+    match contact.surface {
+        Surface::Face => DVec3::ZERO,
+        Surface::Edge { along, .. } => tangential - along * along.dot(tangential),
+        Surface::Round { .. } => tangential,
+    }
+}

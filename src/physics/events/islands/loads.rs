@@ -1,0 +1,56 @@
+//! What resting contacts carry: told at the end of a frame, and what tells a blow from rounding.
+
+use super::resting::{Load, Rests};
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::events::trajectories::Trajectories;
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+
+/// Gap, in radii, from which on a contact that carries nothing is not told to rest: idle ones open up to 1e-6 of the
+/// accelerations before their island is solved again.
+const APART: f64 = 1e-10;
+
+impl Rests {
+    /// A frame begins at `time`, s.
+    pub(crate) fn begin_frame(&mut self, time: f64) {
+        self.frame_start = time;
+        for held in self.held.values_mut() {
+            held.load = Load { since: time, impulse: 0.0, ..held.load };
+        }
+    }
+
+    /// The contacts of an island carry these forces (N) from `now` (s) on.
+    pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64], now: f64) {
+        for (key, &force) in keys.iter().zip(forces) {
+            let frame_start = self.frame_start;
+            let held = self.kept_mut(*key);
+            held.load.since = held.load.since.max(frame_start);
+            held.load = Load { force, since: now, impulse: held.load.given(now) };
+        }
+    }
+
+    /// What the load of a resting contact does to its two bodies, m/s²: with it they fall back together after a hop.
+    pub(super) fn pressure(&self, model: &Model, key: Key) -> f64 {
+        let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
+        let force = self.held.get(&key).map_or(0.0, |held| held.load.force);
+        force * (model.inverse_masses[key.1] + other)
+    }
+
+    /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
+    /// given in the frame.
+    pub(crate) fn list(&mut self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
+        let met = log.contacts.len();
+        for (&key, held) in self.held.iter().filter(|(_, held)| held.announced) {
+            let impulse = Load { since: held.load.since.max(self.frame_start), ..held.load }.given(end);
+            let shown = trajectories.contact_geometry(model, key, end);
+            // what has come apart since it carried anything is held for the solver's sake alone
+            let touches = held.load.force > 0.0 || shown.gap <= APART * shown.reach;
+            let begun = |row: &Contact| row.class == Class::Rest && row.key() == key;
+            if touches && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
+                let row = shown.row(end, Class::Rest, impulse, 0.0);
+                log.contacts.push(Contact { approach_speed: 0.0, ..row });
+            }
+        }
+        self.begin_frame(end);
+    }
+}

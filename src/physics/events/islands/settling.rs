@@ -1,0 +1,333 @@
+//! What events do to islands: rests end, chords follow each other, and islands that have changed are solved again.
+
+use std::collections::BTreeSet;
+
+use super::equilibrium::{Settled, solve_island};
+use super::resting::{Curve, Island, IslandContact, Other, RestingContact, closed};
+use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::events::changed::Changed;
+use crate::physics::events::contact_state::ContactState;
+use crate::physics::events::curved::bodies::Body;
+use crate::physics::events::mechanics::Mechanics;
+use crate::physics::events::rest_reason::RestReason;
+use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::state::Stall;
+use crate::physics::support::{Fate, islands};
+use crate::physics::wall::{Part, Touch, touch, touch_part};
+use crate::physics::wall_parts::{part_ahead, part_end};
+
+/// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
+/// part by more than rounding, too short to be seen.
+const PAUSE: f64 = 1e-7;
+
+impl Mechanics {
+    /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
+    pub(crate) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
+        if self.rests.is_empty() || self.rests.of[i].is_empty() {
+            return;
+        }
+        self.rests.dirty.push(i);
+        for key in self.rests.of[i].clone() {
+            let meeting = self.trajectories.contact_state(model, key);
+            if meeting.hops_within_rounding(self.rests.pressure(model, key)) || self.impacts.instant.has_collapsed(key)
+            {
+                continue;
+            }
+            if meeting.v_n < -model.law.rest_speed && meeting.v_n < -DRIVEN * self.trajectories.trajectory(i).v.length()
+            {
+                if key.0 == Kind::Pair {
+                    self.rests.dirty.extend([key.1, key.2]);
+                }
+                self.release(model, log, key);
+            }
+        }
+    }
+
+    fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
+        if self.rests.drop(key) {
+            let meeting = self.trajectories.contact_state(model, key);
+            let row = meeting.row(self.trajectories.now, Class::Release, 0.0, meeting.v_n);
+            log.contacts.push(row);
+            log.event(row);
+        }
+    }
+
+    /// The parabolas of an island end: a foot comes to the end of its part, an arc or its chord is over.
+    pub(crate) fn end_parabola(&mut self, model: &Model, leader: usize) -> Changed {
+        let now = self.trajectories.now;
+        let island = self.rests.island(leader).expect("an end that is due is that of an island");
+        let spheres = island.spheres.clone();
+        if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
+            self.rests.remember_chord(&spheres, &curve, now);
+            self.set_chord(&spheres, curve.next(model, now));
+            return self.changed(spheres);
+        }
+        for &i in &spheres {
+            self.advance(model, i);
+        }
+        for &i in &spheres {
+            let path = self.trajectories.path(i, now);
+            for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
+                let part = part_ahead(&model.faces[key.2], path.x, path.v, path.a, model.radii[i]);
+                self.rests.kept_mut(key).part = part;
+            }
+        }
+        self.rests.dirty.push(leader);
+        Changed::Nothing
+    }
+
+    /// Sends the spheres along a chord, and gives it to their island.
+    fn set_chord(&mut self, spheres: &[usize], curve: Curve) {
+        let h = curve.length;
+        let accelerations = curve.arc.chord_accelerations(curve.offset, h);
+        for ((&i, start), a) in spheres.iter().zip(curve.at(0.0)).zip(accelerations) {
+            self.trajectories.rewrite(i, start.x, start.v);
+            if h > 0.0 {
+                self.trajectories.accelerate(i, a);
+            }
+        }
+        let until = (self.trajectories.now + h).max(self.trajectories.now.next_up());
+        match self.rests.island_mut(spheres[0]) {
+            Some(island) => (island.end, island.curve) = (until, Some(curve)),
+            None => {
+                let island = Island { spheres: spheres.to_vec(), end: until, curve: Some(curve) };
+                self.rests.insert_island(island, self.trajectories.now);
+            }
+        }
+    }
+
+    /// The motion of these spheres has changed: plans of others that name them are stale.
+    fn changed(&mut self, spheres: Vec<usize>) -> Changed {
+        for &i in &spheres {
+            self.trajectories.mark_changed(i);
+        }
+        Changed::Spheres(spheres)
+    }
+
+    /// No contact is left at this instant: decides what holds, island by island.
+    pub(crate) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<Changed, Stall> {
+        let spheres = self.rests.take_dirty();
+        for &i in &spheres {
+            self.advance(model, i);
+        }
+        self.rests.dirty.clear();
+        for &i in &spheres {
+            self.rests.remove_island(i, self.trajectories.now);
+        }
+        for &i in &spheres {
+            self.add_walls_at_point(model, i);
+        }
+        let keys: BTreeSet<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
+        let mut open: Vec<Vec<Key>> = vec![keys.into_iter().collect()];
+        while let Some(keys) = open.pop() {
+            for connected in self.groups(&keys) {
+                if let Some(left) = self.settle_island(model, log, &connected)? {
+                    open.push(left);
+                }
+            }
+        }
+        for &i in &spheres {
+            if self.rests.of[i].is_empty() {
+                self.trajectories.accelerate(i, model.acceleration(i));
+            }
+            self.trajectories.check_range(i)?;
+        }
+        Ok(self.changed(spheres))
+    }
+
+    /// Adds the walls that share a resting contact's point with its wall: the tile beyond a seam, the slope beyond a
+    /// ridge. Their gap and its rate of change are 0 then, so that no approach announces them; unless they belong to the
+    /// island when the closest point moves on to them, the sphere would sink in.
+    fn add_walls_at_point(&mut self, model: &Model, i: usize) {
+        if !self.rests.of[i].iter().any(|key| key.0 == Kind::Wall) {
+            return;
+        }
+        let path = self.trajectories.path(i, self.trajectories.now);
+        let r = model.radii[i];
+        let shared = |wall: usize, part: Part| touch_part(&model.faces[wall], part, path.x, r);
+        let held: Vec<(usize, Touch)> = (self.rests.of[i].iter().filter(|key| key.0 == Kind::Wall))
+            .map(|&key| (key.2, shared(key.2, self.rests.kept(key).part)))
+            .collect();
+        let size = path.x.abs().max_element().max(r);
+        let open = held.iter().map(|(_, at)| at.gap).fold(0.0, f64::max);
+        let most = open + SHARED_GAP * size;
+        for wall in 0..model.faces.len() {
+            if held.iter().any(|&(other, _)| other == wall) {
+                continue;
+            }
+            let at = touch(&model.faces[wall], path.x, r);
+            let near = |(_, held): &(usize, Touch)| {
+                held.point.distance_squared(at.point) <= (SHARED_POINT * r) * (SHARED_POINT * r)
+            };
+            if at.gap > most || !held.iter().any(near) {
+                continue;
+            }
+            let meeting = self.trajectories.contact_state(model, (Kind::Wall, i, wall));
+            let pull = model.acceleration(i).length();
+            if meeting.v_n.abs() <= SUM * path.v.length() || meeting.hops_within_rounding(pull) {
+                self.rests.add(model, &self.trajectories, &meeting, RestReason::SharedPoint, self.trajectories.now);
+            }
+        }
+    }
+
+    /// The connected sets of some contacts.
+    fn groups(&self, keys: &[Key]) -> Vec<Vec<Key>> {
+        let links: Vec<_> = keys.iter().map(|&(kind, a, b)| (a, (kind == Kind::Pair).then_some(b))).collect();
+        islands(&links).iter().map(|island| island.contacts.iter().map(|&c| keys[c]).collect()).collect()
+    }
+
+    /// Settles connected contacts; returns those that are left if some opened, for they may have fallen apart.
+    fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
+        self.rub_off(model, keys);
+        let (spheres, mut bodies, contacts) = self.island_of(model, keys);
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), CLOCK_ULPS * self.trajectories.clock_ulp());
+        if !settled.converged {
+            return Err(self.not_held(keys));
+        }
+        for (place, &i) in spheres.iter().enumerate() {
+            self.trajectories.rewrite(i, bodies[place].x, bodies[place].v);
+            self.trajectories.accelerate(i, settled.a[place] * self.share_of_pull(keys));
+        }
+        self.write_rest_events(model, log, keys, &settled);
+        self.rests.carry(keys, &settled.forces, self.trajectories.now);
+        let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
+        let opening: Vec<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
+        let (stuck, opening): (Vec<Key>, Vec<Key>) =
+            opening.into_iter().partition(|&key| self.impacts.instant.is_stuck(key));
+        for &key in &opening {
+            self.release(model, log, key);
+            self.ensure_separating(model, key, 0.0);
+        }
+        if !opening.is_empty() {
+            let kept = keys.iter().filter(|key| opening.binary_search(key).is_err());
+            return Ok(Some(kept.copied().collect()));
+        }
+        let pause = if stuck.is_empty() { f64::INFINITY } else { self.pause(&bodies) };
+        for key in stuck {
+            self.rests.hold_until(key, self.trajectories.now + pause);
+        }
+        if settled.curved {
+            self.set_chord(
+                &spheres,
+                Curve::new(model, bodies, contacts, self.trajectories.now)
+                    .cut(pause.min(self.rubbing_time(keys) - self.trajectories.now)),
+            );
+        } else {
+            let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
+            self.rests.insert_island(Island { spheres, end, curve: None }, self.trajectories.now);
+        }
+        Ok(None)
+    }
+
+    /// Bounces that were summed up are over: what they have left of the tangential velocity.
+    fn rub_off(&mut self, model: &Model, keys: &[Key]) {
+        for &key in keys {
+            let due = |held: &&mut RestingContact| held.settles_at <= self.trajectories.now;
+            let held = Some(self.rests.kept_mut(key));
+            let Some(rub) = held.filter(due).and_then(|held| held.rub.take()) else { continue };
+            let (normal, line) =
+                (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(key.1));
+            self.trajectories.rewrite(key.1, line.x, rub.end(line.v, normal));
+        }
+    }
+
+    /// When the first series of bounces of these contacts that was summed up is over, s.
+    fn rubbing_time(&self, keys: &[Key]) -> f64 {
+        let held = keys.iter().map(|&key| self.rests.kept(key)).filter(|held| held.rub.is_some());
+        held.map(|held| held.settles_at).filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How much of its acceleration moves on a sphere whose only contact is one of bounces that were summed up.
+    fn share_of_pull(&self, keys: &[Key]) -> f64 {
+        let [key] = keys else { return 1.0 };
+        self.rests.kept(*key).rub.map_or(1.0, |rub| rub.share)
+    }
+
+    /// How long contacts that keep being released and found again at one instant are held all the same, s: a moment in
+    /// the time that these spheres would take to fall by their radius.
+    fn pause(&self, bodies: &[Body]) -> f64 {
+        let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
+        let squared = bodies.iter().map(of).fold(f64::INFINITY, f64::min);
+        (PAUSE * squared.sqrt()).max(CLOCK_ULPS * self.trajectories.clock_ulp())
+    }
+
+    /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
+    fn island_of(&self, model: &Model, keys: &[Key]) -> (Vec<usize>, Vec<Body>, Vec<IslandContact>) {
+        let named = |&(kind, a, b): &Key| [Some(a), (kind == Kind::Pair).then_some(b)];
+        let spheres: BTreeSet<usize> = keys.iter().flat_map(named).flatten().collect();
+        let spheres: Vec<usize> = spheres.into_iter().collect();
+        let place = |i: usize| spheres.partition_point(|&other| other < i);
+        let contact = |&key: &Key| {
+            let (kind, a, b) = key;
+            let part = self.rests.kept(key).part;
+            let other = if kind == Kind::Wall { Other::Wall(b, part) } else { Other::Place(place(b)) };
+            IslandContact { a: place(a), other }
+        };
+        let contacts = keys.iter().map(contact).collect();
+        let bodies = spheres.iter().map(|&i| Body::of(model, &self.trajectories, i)).collect();
+        (spheres, bodies, contacts)
+    }
+
+    /// Writes a `rest` row for every contact that begins to carry a load, and for every other one whose impulse stopped an
+    /// approach, here or further up the pile: without it, a change of velocity would stand nowhere.
+    fn write_rest_events(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
+        for (index, &key) in keys.iter().enumerate() {
+            let mut meeting = self.trajectories.contact_state(model, key);
+            let held = self.rests.kept_mut(key);
+            let begins = settled.fate[index] == Fate::Loaded && !held.announced;
+            // a contact whose bounces are summed up rests when they are over, unless more than a bounce stops it
+            let bounces = !held.announced && held.settles_at > self.trajectories.now;
+            let struck = settled.struck[index] && !(bounces && is_a_bounce(model, &meeting, settled.impulses[index]));
+            if !struck && (bounces || !begins) {
+                continue;
+            }
+            meeting.v_n = if struck { settled.v_n[index] } else { held.v_n };
+            held.announced = true;
+            let row = meeting.row(self.trajectories.now, Class::Rest, settled.impulses[index], 0.0);
+            log.contacts.push(row);
+            log.event(row);
+        }
+    }
+
+    /// When the first foot of an island on parabolas comes to the end of its part, s.
+    fn parts_end(&self, model: &Model, spheres: &[usize], contacts: &[IslandContact]) -> f64 {
+        let mut first = f64::INFINITY;
+        for contact in contacts {
+            if let Other::Wall(wall, part) = contact.other {
+                let path = self.trajectories.path(spheres[contact.a], self.trajectories.now);
+                let r = model.radii[spheres[contact.a]];
+                if let Some(t) = part_end(&model.faces[wall], part, &path, r, first) {
+                    first = first.min(t);
+                }
+            }
+        }
+        self.trajectories.now + first
+    }
+
+    /// When the first of these contacts asks for its island to be settled again, s.
+    fn settling_time(&self, keys: &[Key]) -> f64 {
+        let ends = keys.iter().map(|&key| self.rests.kept(key)).map(|held| held.settles_at);
+        ends.filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
+    }
+
+    fn not_held(&self, keys: &[Key]) -> Stall {
+        let reason = format!(
+            "The support forces of {} resting contacts (sphere {} among them) could not be found at t = {} s; start them a little apart, or change the method from here.",
+            keys.len(),
+            keys[0].1,
+            self.trajectories.now
+        );
+        Stall { time: self.trajectories.now, kind: "resting-contact", reason }
+    }
+}
+
+/// Whether an impulse (N s) changes v_n by no more than one of the bounces that are summed up.
+fn is_a_bounce(model: &Model, meeting: &ContactState, impulse: f64) -> bool {
+    let (kind, a, b) = meeting.key;
+    let of = |i: usize| (impulse * model.inverse_masses[i], model.acceleration(i).length());
+    let ((one, pull), (other, more)) = (of(a), if kind == Kind::Pair { of(b) } else { (0.0, 0.0) });
+    let change = one + other;
+    change * change <= 8.0 * (pull + more) * SUMMED_HOP * meeting.reach
+}

@@ -1,0 +1,87 @@
+//! All that events act on, apart from the schedule: what moves, what rests, and what impacts have led to.
+
+use super::contact_state::ContactState;
+use super::impacts::Impacts;
+use super::islands::resting::Rests;
+use super::trajectories::Trajectories;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::Model;
+use crate::physics::state::State;
+
+/// The bodies and their contacts. Handlers of events change it, and say which spheres the loop must predict anew.
+#[derive(Debug, Clone)]
+pub(crate) struct Mechanics {
+    /// Where every sphere is, and the clock.
+    pub(crate) trajectories: Trajectories,
+    /// What rests, island by island.
+    pub(crate) rests: Rests,
+    /// What impacts have led to.
+    pub(crate) impacts: Impacts,
+}
+
+impl Mechanics {
+    /// Of spheres at `state`, of which nothing rests yet.
+    pub(crate) fn new(model: &Model, state: &State) -> Mechanics {
+        Mechanics {
+            trajectories: Trajectories::new(model, state),
+            rests: Rests::new(state.t),
+            impacts: Impacts::new(model),
+        }
+    }
+
+    /// The state at `t` (s) within the last frame.
+    pub(crate) fn state_at(&self, model: &Model, t: f64) -> State {
+        let mut state = self.trajectories.state_at(t);
+        self.rests.arcs_into(model, &mut state);
+        state
+    }
+
+    /// A frame begins: states of earlier ones can no longer be read.
+    pub(crate) fn forget_past(&mut self) {
+        self.trajectories.forget_past();
+        self.rests.forget();
+    }
+
+    /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
+    /// again and again. The body that is freer gives way.
+    pub(crate) fn ensure_separating(&mut self, model: &Model, key: Key, least: f64) {
+        let Mechanics { trajectories, rests, .. } = self;
+        let (kind, a, b) = key;
+        let yields = kind == Kind::Pair && rests.count(b) < rests.count(a);
+        let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
+        let mut nudge = f64::EPSILON * trajectories.trajectory(i).v.length().max(f64::MIN_POSITIVE);
+        for _ in 0..64 {
+            let v_n = trajectories.v_n(model, key);
+            if v_n >= least || v_n.is_nan() {
+                return;
+            }
+            let normal = trajectories.contact_state(model, key).normal;
+            trajectories.push(i, normal * (sign * nudge.max(least - v_n)));
+            nudge *= 2.0;
+        }
+    }
+
+    /// The bodies of a contact now, their trajectories brought to the present.
+    pub(crate) fn advanced_contact(&mut self, model: &Model, key: Key) -> ContactState {
+        let (kind, a, b) = key;
+        self.advance(model, a);
+        if kind == Kind::Pair {
+            self.advance(model, b);
+        }
+        self.trajectories.contact_state(model, key)
+    }
+
+    /// Brings the trajectory of sphere `i` to the present; if it moves on an arc, its whole island's, which must then be
+    /// solved again.
+    pub(crate) fn advance(&mut self, model: &Model, i: usize) {
+        match self.rests.leave_chord(i, self.trajectories.now) {
+            None => self.trajectories.advance(i),
+            Some((spheres, followed)) => {
+                let bodies = followed.real(model, self.trajectories.now - followed.from);
+                for (body, &sphere) in bodies.iter().zip(&spheres) {
+                    self.trajectories.rewrite(sphere, body.x, body.v);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Fast path of an impact: two free spheres of equal acceleration that approach faster than what may rest, nothing being at
+//! rest in the scene, as nearly all pairs of a gas do. Same bits as the general impact (`impact`), with each record read
+//! once.
+
+use super::contact_state::ContactState;
+use super::impact::note;
+use super::instant::LONG_CHAIN;
+use super::mechanics::Mechanics;
+use super::record::{Plan, Trajectory};
+use super::trajectories::Trajectories;
+use crate::physics::contact::{Class, Kind};
+use crate::physics::impact_law::{pair_normal_velocity, pair_push, separation_speed};
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::state::Stall;
+
+/// Two spheres that touch now, the one of the lower index first.
+struct PlainPair {
+    /// Where their records are.
+    slots: [usize; 2],
+    /// Their trajectories, at the present.
+    lines: [Trajectory; 2],
+    /// When the motion of either last changed, s.
+    since: f64,
+    contact: ContactState,
+}
+
+impl PlainPair {
+    /// The pair that the sphere at a slot planned to meet, as [`Trajectories::contact_state`] sees it; none if what
+    /// accelerates them differs.
+    #[inline(always)]
+    fn new(trajectories: &Trajectories, slot: usize, plan: &Plan) -> Option<PlainPair> {
+        let now = trajectories.now;
+        let (a, other) = (trajectories.common()?, plan.other as usize);
+        let swap = usize::from(trajectories.sphere(slot) > trajectories.sphere(other));
+        let slots = [[slot, other][swap], [other, slot][swap]];
+        let [one, two] = [&trajectories.records[slots[0]], &trajectories.records[slots[1]]];
+        let since = one.trajectory.t.max(two.trajectory.t);
+        let lines = [one.trajectory.advanced_to(a, now), two.trajectory.advanced_to(a, now)];
+        let key = (Kind::Pair, one.sphere as usize, two.sphere as usize);
+        let [one, two] = [lines[0].path(a, now), lines[1].path(a, now)];
+        let (x, reach) = (one.x - two.x, lines[0].r + lines[1].r);
+        let distance = x.length();
+        let (normal, gap) = (x / distance, distance - reach);
+        let contact = ContactState {
+            key,
+            point: two.x + normal * (lines[1].r + 0.5 * gap),
+            normal,
+            gap,
+            reach,
+            v_n: pair_normal_velocity(x, one.v - two.v),
+            // nothing presses them together: that is all that would be asked
+            a_n: 0.0,
+            flat: false,
+        };
+        Some(PlainPair { slots, lines, since, contact })
+    }
+}
+
+impl Mechanics {
+    /// Lets the impact law act on the pair that the sphere at a slot planned to meet, if it is as plain as that; says
+    /// whether it was, and both spheres have got new velocities.
+    #[inline(always)]
+    pub(super) fn collide_plain_pair(
+        &mut self,
+        model: &Model,
+        log: &mut Log,
+        slot: usize,
+        plan: &Plan,
+    ) -> Result<bool, Stall> {
+        if plan.kind != Kind::Pair || !self.rests.is_empty() {
+            return Ok(false);
+        }
+        let now = self.trajectories.now;
+        let Some(pair) = PlainPair::new(&self.trajectories, slot, plan) else { return Ok(false) };
+        if !self.is_plain(model, &pair) {
+            return Ok(false);
+        }
+        let target = separation_speed(pair.contact.v_n, Class::Collide, Kind::Pair, &model.law);
+        let share = self.exchange(model, &pair);
+        let impulse = (target - pair.contact.v_n) / share;
+        note(log, pair.contact.row(now, Class::Collide, impulse, target));
+        for slot in pair.slots {
+            self.trajectories.check_range_at(slot)?;
+        }
+        Ok(true)
+    }
+
+    /// Whether a pair that nothing presses together collides without any of what the general impact watches for.
+    #[inline(always)]
+    fn is_plain(&self, model: &Model, pair: &PlainPair) -> bool {
+        let (v_n, impacts) = (pair.contact.v_n, &self.impacts);
+        let watched = model.law.restitution < 1.0 && v_n * v_n == 0.0;
+        v_n < -model.law.rest_speed
+            && !watched
+            && impacts.instant.events <= LONG_CHAIN
+            && !impacts.chatter.may_be_endless(&self.trajectories, &pair.contact, pair.since)
+    }
+
+    /// Both get their impulse; returns 1/m₁ + 1/m₂, 1/kg.
+    #[inline(always)]
+    fn exchange(&mut self, model: &Model, pair: &PlainPair) -> f64 {
+        let (slots, [one, two]) = (pair.slots, pair.lines);
+        let [share_a, share_b] = slots.map(|slot| self.trajectories.records[slot].inverse_mass);
+        let (arm, w, share) = (one.x - two.x, one.v - two.v, share_a + share_b);
+        let push = pair_push(arm, w, share, model.law.restitution);
+        let (one, two) =
+            (Trajectory { v: one.v + push * share_a, ..one }, Trajectory { v: two.v + push * -share_b, ..two });
+        self.trajectories.redirect(slots[0], one);
+        self.trajectories.redirect(slots[1], two);
+        if pair_normal_velocity(arm, one.v - two.v) < 0.0 {
+            self.ensure_separating(model, pair.contact.key, 0.0);
+        }
+        share
+    }
+}

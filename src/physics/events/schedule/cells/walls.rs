@@ -1,0 +1,100 @@
+//! Which walls are near which cubes.
+
+use glam::DVec3;
+
+use super::{Cells, ENTRIES, OUTERMOST, WALLS};
+use crate::physics::events::record::CellCoordinates;
+use crate::physics::model::Model;
+use crate::physics::wall::Face;
+
+/// Leaves room for the rounding of coordinates.
+const MARGIN: f64 = 1.0 + 1e-6;
+
+/// The cubes from one corner to the other, and where among them a wall's plane is.
+struct Slab<'a> {
+    face: &'a Face,
+    low: CellCoordinates,
+    high: CellCoordinates,
+    /// The axis along which the plane is crossed most steeply.
+    steep: usize,
+    /// How far from the plane (m) the middle of a cube near it may be.
+    half: f64,
+}
+
+impl Cells {
+    /// Lists each wall in every place whose cubes a sphere of the table touches it from.
+    pub(crate) fn register(&mut self, model: &Model) {
+        let reach = self.widest * MARGIN;
+        let mut near: Vec<(u32, u32)> = Vec::new();
+        for (wall, face) in model.faces.iter().enumerate() {
+            let bounds = face.shape.bounds().grown(reach);
+            let n = face.normal.abs();
+            let slab = Slab {
+                face,
+                low: self.coordinates_of(bounds.min),
+                high: self.coordinates_of(bounds.max),
+                steep: (0..3).fold(0, |best, axis| if n[axis] > n[best] { axis } else { best }),
+                // half the cube's extent along the wall's normal, and what a sphere adds
+                half: 0.5 * self.edge * (n.x + n.y + n.z) * MARGIN + reach,
+            };
+            self.places_near(&slab, |place| near.push((place, wall as u32)));
+        }
+        near.sort_unstable();
+        near.dedup();
+        self.starts = vec![0; self.table.len() + 1];
+        for &(place, _) in &near {
+            self.starts[place as usize + 1] += 1;
+        }
+        for place in 0..self.table.len() {
+            self.starts[place + 1] += self.starts[place];
+        }
+        for &(place, _) in &near {
+            self.table[place as usize].0[ENTRIES] |= WALLS;
+        }
+        self.walls = near.into_iter().map(|(_, wall)| wall).collect();
+    }
+
+    /// Every place near a wall, column by column along the steep axis, so that a slanted wall costs what it covers and
+    /// not its whole box.
+    fn places_near(&self, slab: &Slab, mut found: impl FnMut(u32)) {
+        let Slab { low, high, steep, .. } = *slab;
+        // where the table is folded or the outermost cubes reach to infinity, a number stands for many cubes, and the
+        // distance from the plane tells nothing
+        let vague = |axis: usize| {
+            i64::from(high[axis]) - i64::from(low[axis]) >= i64::from(self.size[axis]) - 1
+                || low[axis] == -OUTERMOST
+                || high[axis] == OUTERMOST
+        };
+        let range = |axis: usize, low: i32, high: i32| {
+            let all = i64::from(high) - i64::from(low) >= i64::from(self.size[axis]) - 1;
+            if all { 0..=self.size[axis] - 1 } else { low..=high }
+        };
+        let (one, two) = ((steep + 1) % 3, (steep + 2) % 3);
+        let whole = vague(one) || vague(two) || low[steep] == -OUTERMOST || high[steep] == OUTERMOST;
+        let mut cube = [0; 3];
+        for u in range(one, low[one], high[one]) {
+            for w in range(two, low[two], high[two]) {
+                (cube[one], cube[two]) = (u, w);
+                let (from, to) = if whole { (low[steep], high[steep]) } else { self.column(slab, cube) };
+                for s in range(steep, from, to) {
+                    cube[steep] = s;
+                    found(self.index_of(cube));
+                }
+            }
+        }
+    }
+
+    /// The first and the last cube of a column that are near a wall's plane, within the wall's box.
+    fn column(&self, slab: &Slab, mut cube: CellCoordinates) -> (i32, i32) {
+        let Slab { face, low, high, steep, half } = *slab;
+        cube[steep] = low[steep];
+        let middle = DVec3::from_array(cube.map(|k| f64::from(k) + 0.5));
+        let height = face.height(self.origin + middle * self.edge);
+        let step = face.normal[steep] * self.edge;
+        let (a, b) = ((-half - height) / step, (half - height) / step);
+        // a cube more on either side than the division says
+        let (from, to) = (a.min(b).floor() - 1.0, a.max(b).ceil() + 1.0);
+        let last = f64::from(high[steep]) - f64::from(low[steep]);
+        (low[steep] + from.clamp(0.0, last + 1.0) as i32, low[steep] + to.clamp(-1.0, last) as i32)
+    }
+}

@@ -1,0 +1,167 @@
+//! The search for the next contact of one sphere: with walls, and with the spheres near it.
+
+use glam::DVec3;
+
+use super::candidates::Candidates;
+use super::simd::{MOST, PairBatch, Query, Simd};
+use crate::physics::contact::Kind;
+use crate::physics::contact_time::straight_pair;
+use crate::physics::events::detector::{Detector, Due, Span};
+use crate::physics::events::islands::resting::Rests;
+use crate::physics::events::record::Plan;
+use crate::physics::events::trajectories::Trajectories;
+use crate::physics::model::Model;
+use crate::physics::path::Path;
+
+/// The sphere that looks for its next contact, and what it looks with.
+pub(super) struct Search<'a, D> {
+    pub(super) model: &'a Model,
+    pub(super) trajectories: &'a Trajectories,
+    pub(super) rests: &'a Rests,
+    pub(super) detector: &'a D,
+    pub(super) simd: Simd,
+    /// The sphere's slot.
+    pub(super) slot: usize,
+    /// The sphere's path from now on.
+    pub(super) path: Path,
+    /// End of the sphere's current parabola, s; later contacts are not searched for.
+    pub(super) until: f64,
+}
+
+impl<D: Detector> Search<'_, D> {
+    /// Looks at some walls, in ascending order; returns how many.
+    #[inline]
+    pub(super) fn walls(&self, walls: impl Iterator<Item = usize>, plan: &mut Plan) -> u64 {
+        let (i, r) = (self.trajectories.sphere(self.slot), self.trajectories.records[self.slot].trajectory.r);
+        let mut count = 0;
+        for wall in walls {
+            if self.rests.holds((Kind::Wall, i, wall)) {
+                continue;
+            }
+            count += 1;
+            let span = self.span_for_walls(plan);
+            let Some(due) = self.detector.wall(&self.path, r, &self.model.faces[wall], span) else {
+                continue;
+            };
+            let time = self.trajectories.now + due.after;
+            if time < plan.contact || (time == plan.contact && plan.kind == Kind::Pair) {
+                (plan.contact, plan.kind, plan.other, plan.is_contact) =
+                    (time, Kind::Wall, wall as u32, due.is_contact);
+            }
+        }
+        count
+    }
+
+    /// Until when a wall is worth a look, s from now: walls come before pairs of the same time, and times that round to
+    /// the same are the same.
+    #[inline]
+    fn span_for_walls(&self, plan: &Plan) -> Span {
+        let now = self.trajectories.now;
+        match plan.kind {
+            Kind::Pair if D::PAIRS_FIRST => {
+                Span { now, before: (plan.contact.min(self.until).next_up() - now).next_up() }
+            }
+            _ => self.span_before(plan.contact),
+        }
+    }
+
+    #[inline]
+    fn span_before(&self, time: f64) -> Span {
+        let now = self.trajectories.now;
+        Span { now, before: time.min(self.until) - now }
+    }
+
+    /// Looks at the pairs of the sphere and its candidates, itself among them; returns how many.
+    #[inline]
+    pub(super) fn pairs(&self, candidates: &mut Candidates, plan: &mut Plan) -> u64 {
+        if D::STRAIGHT_PAIRS && self.trajectories.common().is_some() {
+            self.straight_pairs(candidates, plan);
+        } else {
+            for &other in candidates.slots().iter().filter(|&&other| other as usize != self.slot) {
+                self.pair(other as usize, plan);
+            }
+        }
+        candidates.slots().len() as u64
+    }
+
+    /// Looks at pairs whose relative motion is straight.
+    #[inline(always)]
+    fn straight_pairs(&self, candidates: &mut Candidates, plan: &mut Plan) {
+        let records = &self.trajectories.records[..];
+        let query = Query { path: &self.path, r: records[self.slot].trajectory.r, now: self.trajectories.now };
+        let (slots, batches) = candidates.padded(self.slot);
+        let mut rest = slots;
+        while !rest.is_empty() {
+            let (slots, later) = rest.split_at(rest.len().min(MOST));
+            rest = later;
+            let first = self.simd.look(query, records, slots, batches);
+            if first.doubtful || !self.rests.is_empty() {
+                self.one_by_one(slots, batches, first.meet, plan);
+            } else if first.time < f64::INFINITY {
+                self.offer(first.with as usize, first.time, true, plan);
+            }
+        }
+    }
+
+    /// Looks at the pairs with a bit in `meet` one by one: one overlaps by rounding, some may rest, or several meet at the
+    /// same time.
+    #[cold]
+    #[inline(never)]
+    fn one_by_one(&self, slots: &[u32], batches: &[PairBatch], mut meet: u64, plan: &mut Plan) {
+        while meet != 0 {
+            let k = meet.trailing_zeros() as usize;
+            meet &= meet - 1;
+            let (batch, lane, other) = (&batches[k / 4], k % 4, slots[k] as usize);
+            let (b, c) = (batch.b[lane], batch.c[lane]);
+            let time = self.trajectories.now + c / (batch.discriminant[lane].sqrt() - b);
+            if c <= 0.0 {
+                // whether they approach is for the handler's own expression to say
+                self.pair(other, plan);
+            } else if time <= self.trajectories.records[other].plan.contact && time < f64::INFINITY {
+                self.offer(other, time, true, plan);
+            }
+        }
+    }
+
+    /// Looks at one pair; returns 1 if there was anything to look at.
+    #[inline]
+    pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
+        let (records, now) = (&self.trajectories.records, self.trajectories.now);
+        let line = &records[other].trajectory;
+        let reach = records[self.slot].trajectory.r + line.r;
+        let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
+            let t = straight_pair(self.path.x - (line.x + line.v * (now - line.t)), self.path.v - line.v, reach);
+            t.map(|after| Due { after, is_contact: true })
+        } else {
+            let before = D::pair_horizon(plan.contact, records[other].plan.contact);
+            self.detector.pair(&self.path, &self.trajectories.path_from(other), reach, self.span_before(before))
+        };
+        let Some(due) = found else { return 1 };
+        self.offer(other, now + due.after, due.is_contact, plan)
+    }
+
+    /// Plans to meet the sphere at `other` at `time` (s) if nothing is planned before; returns 0 if the two rest on each
+    /// other.
+    #[inline]
+    fn offer(&self, other: usize, time: f64, is_contact: bool, plan: &mut Plan) -> u64 {
+        if time < plan.contact || time == plan.contact && self.wins_tie(other, plan) {
+            if !self.rests.is_empty() {
+                let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
+                if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
+                    return 0;
+                }
+            }
+            (plan.contact, plan.kind, plan.is_contact) = (time, Kind::Pair, is_contact);
+            (plan.other, plan.motion_version) = (other as u32, self.trajectories.records[other].motion_version);
+        }
+        1
+    }
+
+    /// Among pairs at one time the lower (a, b) comes first; walls come before pairs.
+    #[cold]
+    fn wins_tie(&self, other: usize, plan: &Plan) -> bool {
+        let new = Plan { kind: Kind::Pair, other: other as u32, ..*plan };
+        let key = |plan: &Plan| self.trajectories.key(self.slot, plan);
+        plan.kind == Kind::Pair && plan.contact.is_finite() && key(&new) < key(plan)
+    }
+}

@@ -1,0 +1,77 @@
+//! Spheres that just fit between walls: parallel ones, or three and more around them, as close as rounding can tell.
+//!
+//! Off such a wall leads no way that does not lead into another: the impact law would send the sphere to and fro for
+//! ever, at one place and one time, whatever the restitution. What there is of its velocity across those walls has no
+//! flight to bounce in: the contacts rest, pressed or not, and the sphere slides between them.
+
+use super::contact_state::ContactState;
+use super::mechanics::Mechanics;
+use super::record::Record;
+use super::rest_reason::RestReason;
+use super::rounding::WEDGE;
+use super::trajectories::Trajectories;
+use crate::physics::contact::{Key, Kind};
+use crate::physics::model::Model;
+use crate::physics::overlap::touching;
+use crate::physics::support::{Row, solve};
+use crate::physics::wall::touch;
+
+/// From so many events on without the clock advancing it is asked whether a sphere is squeezed, at powers of two.
+const DOUBTFUL: u64 = 4;
+
+impl Mechanics {
+    /// Whether a contact can't ever be left: then all contacts that hold the sphere so rest from now on.
+    pub(super) fn is_squeezed(&mut self, model: &Model, contact: &ContactState) -> bool {
+        let events = self.impacts.instant.events;
+        let (kind, i, _) = contact.key;
+        if kind == Kind::Pair || events < DOUBTFUL || !events.is_power_of_two() {
+            return false;
+        }
+        let record = &self.trajectories.records[self.trajectories.slot(i)];
+        let keys = walls_touched(model, &self.trajectories, record, 0..model.faces.len());
+        let squeezing = squeezing(model, &self.trajectories, &keys);
+        if !squeezing.contains(&contact.key) {
+            return false;
+        }
+        for key in squeezing {
+            if self.rests.holds(key) {
+                continue;
+            }
+            let contact = self.advanced_contact(model, key);
+            self.rests.add(model, &self.trajectories, &contact, RestReason::Squeezed, self.trajectories.now);
+        }
+        true
+    }
+}
+
+/// The contacts of a sphere with those of some walls that it touches now, to rounding.
+pub(super) fn walls_touched(
+    model: &Model,
+    trajectories: &Trajectories,
+    record: &Record,
+    walls: impl Iterator<Item = usize>,
+) -> Vec<Key> {
+    let (r, i) = (record.trajectory.r, record.sphere as usize);
+    let x = trajectories.path(i, trajectories.now).x;
+    let slack = touching(r, x.abs().max_element());
+    let touched = walls.filter(|&wall| touch(&model.faces[wall], x, r).gap <= slack);
+    touched.map(|wall| (Kind::Wall, i, wall)).collect()
+}
+
+/// Of the contacts of one sphere with walls those that can't open: the nearest way to straight off the wall that none
+/// of the others forbids does not leave it.
+pub(super) fn squeezing(model: &Model, trajectories: &Trajectories, keys: &[Key]) -> Vec<Key> {
+    if keys.len() < 2 {
+        return Vec::new();
+    }
+    let normal = |key: &Key| {
+        let path = trajectories.path(key.1, trajectories.now);
+        touch(&model.faces[key.2], path.x, trajectories.trajectory(key.1).r).normal
+    };
+    let rows: Vec<Row> = keys.iter().map(|key| Row { a: 0, b: None, normal: normal(key), offset: 0.0 }).collect();
+    let stays = |row: &Row| {
+        let way = solve(&[1.0], &[row.normal], &rows, &[]).vectors[0];
+        way.dot(row.normal) <= WEDGE
+    };
+    keys.iter().zip(&rows).filter(|(_, row)| stays(row)).map(|(&key, _)| key).collect()
+}

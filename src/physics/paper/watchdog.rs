@@ -1,0 +1,40 @@
+//! The watchdog's memory: whether frames go on bringing time.
+
+use crate::physics::contact::Class;
+use crate::physics::log::Log;
+
+/// Least mean progress, in units of dt, of frames cut short with an impact: a gas of a million spheres makes 1e-4.
+const STRUCK_PACE: f64 = 1e-6;
+
+/// Least mean progress, in units of dt, of frames cut short without any impact: a landing needs a few tens of frames.
+const QUIET_PACE: f64 = 1e-2;
+
+/// The watchdog's memory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Watch {
+    /// When the present count began, s.
+    pub(super) since: f64,
+    /// Frames cut short by a search since then.
+    pub(super) cut: u64,
+    /// Time they should have brought at least, s.
+    pub(super) owed: f64,
+    /// Whether a frame brought no time at all.
+    pub(super) stuck: bool,
+}
+
+impl Watch {
+    /// Nothing counted yet at this time, s.
+    pub(super) fn at(time: f64) -> Watch {
+        Watch { since: time, cut: 0, owed: 0.0, stuck: false }
+    }
+
+    /// Counts a frame that brought this much time, s, and was or was not cut short by a search.
+    pub(super) fn note(&mut self, elapsed: f64, cut: bool, dt: f64, log: &Log) {
+        self.stuck |= elapsed <= 0.0;
+        if cut {
+            let struck = log.contacts.iter().any(|c| c.class == Class::Collide);
+            self.cut += 1;
+            self.owed += dt * if struck { STRUCK_PACE } else { QUIET_PACE };
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The path of a centre between events: a parabola.
+
+use glam::DVec3;
+
+/// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Path {
+    /// Where at t = 0, m.
+    pub x: DVec3,
+    /// Velocity at t = 0, m/s.
+    pub v: DVec3,
+    /// Acceleration, m/s².
+    pub a: DVec3,
+}
+
+impl Path {
+    /// Position at `t` (s), m.
+    #[inline]
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.x + (self.v + self.a * (0.5 * t)) * t
+    }
+
+    /// Velocity at `t` (s), m/s.
+    #[inline]
+    pub fn velocity(&self, t: f64) -> DVec3 {
+        self.v + self.a * t
+    }
+
+    /// This path seen from `other`.
+    #[inline]
+    pub fn relative_to(&self, other: &Path) -> Path {
+        Path { x: self.x - other.x, v: self.v - other.v, a: self.a - other.a }
+    }
+
+    /// True if the displacement certainly stays below `way` (m) until `time` (s), by the triangle inequality: the cheap
+    /// rejection before a quartic.
+    #[inline]
+    pub(super) fn stays_within(&self, way: f64, time: f64) -> bool {
+        way * (1.0 - 1e-9) > (self.v.length() + 0.5 * self.a.length() * time) * time
+    }
+
+    /// Bounds of a coordinate along `axis` (any vector) over [from, to] (s).
+    pub(super) fn reach(&self, axis: DVec3, from: f64, to: f64) -> (f64, f64) {
+        let (v, a) = (axis.dot(self.v), axis.dot(self.a));
+        let (start, end) = (axis.dot(self.at(from)), axis.dot(self.at(to)));
+        let apex = -v / a;
+        let turn = if apex > from && apex < to { axis.dot(self.at(apex)) } else { start };
+        (start.min(end).min(turn), start.max(end).max(turn))
+    }
+}

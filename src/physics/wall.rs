@@ -1,0 +1,133 @@
+//! A wall as the physics sees it, and the part of it that is closest to a sphere.
+
+use glam::DVec3;
+
+use crate::geometry::Parallelogram;
+
+/// A wall with what its tests need: unit normal and the dual vectors of its edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// Centre, edges, m.
+    pub shape: Parallelogram,
+    /// Unit normal s1 × s2 / |s1 × s2|; contacts flip it to the sphere's side.
+    pub normal: DVec3,
+    /// d1 with d1·s1 = 1, d1·s2 = d1·n = 0, 1/m.
+    pub dual1: DVec3,
+    /// d2 with d2·s2 = 1, d2·s1 = d2·n = 0, 1/m.
+    pub dual2: DVec3,
+    /// Whether no sphere can reach its edges, as long as none passes a wall.
+    pub sealed: bool,
+}
+
+impl Face {
+    /// What the tests of a wall of this shape need, its edges taken as within reach.
+    pub fn new(shape: Parallelogram) -> Face {
+        let normal = shape.normal();
+        let (row1, row2) = (shape.s2.cross(normal), normal.cross(shape.s1));
+        Face { shape, normal, dual1: row1 / row1.dot(shape.s1), dual2: row2 / row2.dot(shape.s2), sealed: false }
+    }
+
+    /// Signed distance of `p` (m) from the wall's plane, m; positive on the side of `normal`.
+    #[inline]
+    pub fn height(&self, p: DVec3) -> f64 {
+        (p - self.shape.center).dot(self.normal)
+    }
+
+    /// Whether the foot of `p` (m) on the plane lies within the parallelogram, its boundary included.
+    #[inline]
+    pub fn shades(&self, p: DVec3) -> bool {
+        let q = p - self.shape.center;
+        q.dot(self.dual1).abs() <= 0.5 && q.dot(self.dual2).abs() <= 0.5
+    }
+}
+
+/// The part of a parallelogram that is closest to a point. Edges and corners are numbered along the outline: edge k
+/// runs from corner k to corner k + 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Its inside.
+    Face,
+    /// An edge without its ends.
+    Edge(u8),
+    /// A corner.
+    Corner(u8),
+}
+
+/// A sphere against a wall: where, along which normal, how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// What is touched.
+    pub part: Part,
+    /// The closest point, m.
+    pub point: DVec3,
+    /// Unit normal from it to the centre.
+    pub normal: DVec3,
+    /// Distance of the centre from the closest point − r, m.
+    pub gap: f64,
+}
+
+/// The closest point of a wall to a centre `x` (m) of a sphere of radius `r` (m).
+pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
+    let foot = x - face.shape.center;
+    let (u, w) = (foot.dot(face.dual1), foot.dot(face.dual2));
+    if u.abs() <= 0.5 && w.abs() <= 0.5 {
+        return touch_part(face, Part::Face, x, r);
+    }
+    let corners = face.shape.corners();
+    let mut best = (Part::Corner(0), f64::INFINITY);
+    for k in 0..4 {
+        let (from, to) = (corners[k], corners[(k + 1) % 4]);
+        let along = (x - from).dot(to - from) / (to - from).length_squared();
+        let (part, point) = match along {
+            s if s <= 0.0 => (Part::Corner(k as u8), from),
+            s if s >= 1.0 => (Part::Corner((k as u8 + 1) % 4), to),
+            s => (Part::Edge(k as u8), from + (to - from) * s),
+        };
+        let squared = (x - point).length_squared();
+        if squared < best.1 {
+            best = (part, squared);
+        }
+    }
+    touch_part(face, best.0, x, r)
+}
+
+/// The point of a given part of a wall that is closest to a centre `x` (m) of a sphere of radius `r` (m): a contact that
+/// rolls over an edge stays with the part that it was handed to.
+pub fn touch_part(face: &Face, part: Part, x: DVec3, r: f64) -> Touch {
+    let corners = face.shape.corners();
+    let point = match part {
+        Part::Face => {
+            let height = face.height(x);
+            let side = if height < 0.0 { -1.0 } else { 1.0 };
+            let point = x - face.normal * height;
+            return Touch { part, point, normal: face.normal * side, gap: side * height - r };
+        }
+        Part::Edge(k) => {
+            let (from, to) = (corners[k as usize], corners[(k as usize + 1) % 4]);
+            from + (to - from) * ((x - from).dot(to - from) / (to - from).length_squared())
+        }
+        Part::Corner(k) => corners[k as usize],
+    };
+    let arm = x - point;
+    let distance = arm.length();
+    Touch { part, point, normal: arm / distance, gap: distance - r }
+}
+
+/// Unit vector along edge `k` of a wall.
+pub fn edge_direction(face: &Face, k: u8) -> DVec3 {
+    let side = if k.is_multiple_of(2) { face.shape.s1 } else { face.shape.s2 };
+    side / side.length()
+}
+
+/// What the curvature of a touched part adds to the second derivative of the gap, m/s²: |v_⊥|²/r at an edge or corner.
+pub fn curvature(face: &Face, part: Part, normal: DVec3, v: DVec3, r: f64) -> f64 {
+    let across = v - normal * normal.dot(v);
+    match part {
+        Part::Face => 0.0,
+        Part::Edge(k) => {
+            let along = edge_direction(face, k);
+            (across - along * along.dot(across)).length_squared() / r
+        }
+        Part::Corner(_) => across.length_squared() / r,
+    }
+}

@@ -1,0 +1,159 @@
+//! Which part of a wall is closest: its face, an edge or a corner, for how long, and which comes next.
+//!
+//! The parts share the plane among them: over the face, the face; between the normals of an edge's ends, outside it, the
+//! edge; the rest belongs to the corners. All borders are planes perpendicular to the wall.
+
+use glam::DVec3;
+
+use super::path::Path;
+use super::wall::{Face, Part};
+use crate::roots::quadratic_fall;
+
+/// A plane beyond which another part takes over: `normal`·(x − `at`) is the room left, m.
+#[derive(Clone, Copy)]
+struct Border {
+    at: DVec3,
+    /// Unit vector into the part.
+    inward: DVec3,
+}
+
+/// The borders of a part: four of a face, three of an edge, two of a corner.
+fn borders(face: &Face, part: Part) -> impl Iterator<Item = Border> {
+    let corners = face.shape.corners();
+    let along =
+        move |k: usize| (corners[(k + 1) % 4] - corners[k % 4]) / (corners[(k + 1) % 4] - corners[k % 4]).length();
+    let outward = |k: usize| match k {
+        0 => -face.dual2 / face.dual2.length(),
+        1 => face.dual1 / face.dual1.length(),
+        2 => face.dual2 / face.dual2.length(),
+        _ => -face.dual1 / face.dual1.length(),
+    };
+    let border = |at: DVec3, inward: DVec3| Some(Border { at, inward });
+    let found = match part {
+        Part::Face => [0, 1, 2, 3].map(|k| border(corners[k], -outward(k))),
+        Part::Edge(k) => {
+            let k = k as usize;
+            let (from, to) = (corners[k], corners[(k + 1) % 4]);
+            [border(from, along(k)), border(to, -along(k)), border(from, outward(k)), None]
+        }
+        Part::Corner(k) => {
+            let k = k as usize;
+            [border(corners[k], -along(k)), border(corners[k], along(k + 3)), None, None]
+        }
+    };
+    found.into_iter().flatten()
+}
+
+/// How far the point closest to `x` is inside a part of a wall, m: the least distance to where another part takes over;
+/// negative beyond.
+pub(crate) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
+    borders(face, part).map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
+}
+
+/// How far beyond a border at which it begins a contact belongs to the next part, in radii or coordinates, whichever are
+/// larger: more than rounding, so that a sphere that slides along a border does not change its part for ever, and less
+/// than matters, since the distances to two parts differ by half its square.
+pub(crate) const BORDER: f64 = 1e-12;
+
+/// When a sphere of radius `r` (m) on `path`, in touch with `part` of a wall, comes to where another part takes over, s
+/// from now: the first time at which it is on the border and moving outwards; if it begins there, or beyond, the first time
+/// at which it is [`BORDER`] beyond. Only times below `before` (s) matter.
+pub(crate) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64) -> Option<f64> {
+    let least = BORDER * path.x.abs().max_element().max(r);
+    let end = |border: Border| {
+        let (n, room) = (border.inward, border.inward.dot(path.x - border.at));
+        let room = if room > least { room } else { room + least };
+        quadratic_fall([room, n.dot(path.v), 0.5 * n.dot(path.a)])
+    };
+    borders(face, part).filter_map(end).filter(|&t| t < before).reduce(f64::min)
+}
+
+/// The part of a wall that is closest to a sphere of radius `r` (m) at `x` just from now on, given how it moves: on a
+/// border it is the part that the motion leads to. Decided by the borders alone: near a corner the distances to the
+/// corner and to the edge beside it differ by less than rounding.
+pub(crate) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> Part {
+    // Far enough to be clear of the rounding of x, near enough not to change anything but a border's side.
+    let ahead = 1e-9 * r;
+    let direction = if v == DVec3::ZERO { a } else { v };
+    let length = direction.length();
+    let look = if length > 0.0 { x + direction * (ahead / length) } else { x };
+    let mut best = (Part::Face, room(face, Part::Face, look));
+    for part in (0..4).map(Part::Edge).chain((0..4).map(Part::Corner)) {
+        let room = room(face, part, look);
+        if room > best.1 {
+            best = (part, room);
+        }
+    }
+    best.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Parallelogram;
+    use crate::physics::wall::touch;
+
+    fn skewed() -> Face {
+        Face::new(Parallelogram {
+            center: DVec3::new(1.0, 2.0, 3.0),
+            s1: DVec3::new(4.0, 0.0, 1.0),
+            s2: DVec3::new(2.5, 2.0, 0.0),
+        })
+    }
+
+    /// Every part, each once.
+    fn parts() -> impl Iterator<Item = Part> {
+        std::iter::once(Part::Face).chain((0..4).map(Part::Edge)).chain((0..4).map(Part::Corner))
+    }
+
+    /// Points of a grid around the wall.
+    fn grid() -> impl Iterator<Item = DVec3> {
+        let face = skewed();
+        (0..15_625).map(move |i| {
+            let at = |shift: i32| f64::from(i / shift % 25) - 12.0;
+            face.shape.center + DVec3::new(at(1), at(25), at(625)) * 0.317
+        })
+    }
+
+    #[test]
+    fn the_closest_part_is_the_one_with_room() {
+        let face = skewed();
+        for x in grid() {
+            let closest = touch(&face, x, 0.5).part;
+            for part in parts() {
+                let room = room(&face, part, x);
+                // No grid point lies within rounding of a border.
+                assert_eq!(room > 0.0, part == closest, "{x}: {closest:?}, but {part:?} has room {room}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_ends_where_the_room_does_and_the_next_one_begins() {
+        let face = skewed();
+        let mut ends = 0;
+        for x in grid().step_by(7) {
+            let path = Path { x, v: (face.shape.center - x) * 0.5 + DVec3::new(0.3, -0.2, 0.7), a: DVec3::NEG_Y };
+            let part = touch(&face, x, 0.5).part;
+            let Some(t) = part_end(&face, part, &path, 0.5, 10.0) else { continue };
+            ends += 1;
+            // Coordinates of some tens of metres.
+            assert!(room(&face, part, path.at(t)).abs() < 1e-12);
+            let next = part_ahead(&face, path.at(t), path.velocity(t), path.a, 0.5);
+            assert_ne!(next, part, "{x}: after {t} s");
+            assert!(room(&face, next, path.at(t + 1e-7)) > 0.0, "{x}: {next:?}");
+        }
+        assert!(ends > 1000, "{ends} ends");
+    }
+
+    #[test]
+    fn a_border_crossed_inwards_is_no_end() {
+        let face = skewed();
+        let on_border = face.shape.corners()[1] * 0.5 + face.shape.corners()[2] * 0.5;
+        let path = Path { x: on_border + face.normal * 0.5, v: face.shape.center - on_border, a: DVec3::ZERO };
+        let t = part_end(&face, Part::Face, &path, 0.5, 100.0).expect("it leaves on the other side");
+        assert!((t - 2.0).abs() < 1e-14, "{t}");
+        assert_eq!(part_ahead(&face, path.x, path.v, path.a, 0.5), Part::Face);
+        assert_eq!(part_ahead(&face, path.x, -path.v, path.a, 0.5), Part::Edge(1));
+    }
+}
