@@ -163,6 +163,7 @@ impl Driver {
                 if self.guard.session().take().is_err() {
                     return Ok(Some(Outcome::Signal(SIGHUP)));
                 }
+                self.pacer.forget_requests();
                 self.repaint();
             }
             Event::End(signal) => return Ok(Some(Outcome::Signal(signal))),
@@ -246,7 +247,6 @@ impl Driver {
         }
         self.leave(false);
         self.guard.session().give_back();
-        self.pacer.forget_requests();
         // Continuing sends a signal of its own, which takes the terminal again.
         signals::stop().map_err(Error::Io)
     }
