@@ -119,13 +119,18 @@ impl Driver {
                     self.draw();
                     continue;
                 }
+                Next::Probe => {
+                    self.pacer.probing(self.clock.elapsed());
+                    self.writer.send(REQUEST.to_vec(), self.guard.session().takes());
+                    continue;
+                }
                 Next::Rest => self.events.recv().ok(),
                 Next::Wait(time) => match self.events.recv_timeout(time) {
                     Err(RecvTimeoutError::Timeout) => continue,
                     event => event.ok(),
                 },
             };
-            // Everything that has arrived counts before the next picture, unless it takes long.
+            // All that has arrived counts before the next picture, unless it takes long.
             let deadline = self.clock.elapsed() + TURN;
             let mut next = event;
             while let Some(event) = next {
@@ -207,10 +212,10 @@ impl Driver {
     /// for a moment if that is no shell (`briefly`).
     fn leave(&mut self, briefly: bool) {
         self.guard.session().leave_screen();
-        let latest = self.clock.elapsed() + LEAVE;
-        while let Some(by) = self.pacer.all_answered_by() {
-            let by = if briefly { by.min(latest) } else { by };
-            match self.events.recv_timeout(by.saturating_sub(self.clock.elapsed())) {
+        let begin = self.clock.elapsed();
+        while let Some(patience) = self.pacer.answers_within() {
+            let end = begin + if briefly { LEAVE } else { patience };
+            match self.events.recv_timeout(end.saturating_sub(self.clock.elapsed())) {
                 Ok(Event::Replied) => self.count_replies(),
                 Ok(Event::Gone | Event::End(_) | Event::Panicked(_)) | Err(_) => return,
                 Ok(_) => {}
@@ -265,10 +270,8 @@ impl Driver {
         let picture = self.encoder.encode(&buffer, self.app.cursor());
         if !picture.is_empty() {
             let now = self.clock.elapsed();
-            let requests = self.pacer.requests(now);
-            let request = |wanted| if wanted { REQUEST } else { b"" };
-            let bytes = [request(requests.before), &picture, request(requests.after)].concat();
-            self.pacer.sending(now, bytes.len(), requests);
+            let asks = self.pacer.sending(now, picture.len() + REQUEST.len());
+            let bytes = if asks { [&picture, REQUEST].concat() } else { picture };
             self.writer.send(bytes, takes);
         }
     }

@@ -32,6 +32,12 @@ const RATE: u32 = 25;
 /// Widest window.
 const WIDEST: u32 = 4;
 
+/// So many pictures in a row tell how long a byte takes; the quickest counts, for a busy machine is no thin line.
+const SAMPLES: usize = 4;
+
+/// Smaller pictures tell nothing about it, bytes.
+const TELLING: usize = 500;
+
 /// What is known of the terminal's answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Answers {
@@ -45,19 +51,10 @@ enum Answers {
 #[derive(Debug, Clone, Copy)]
 struct Request {
     sent: Duration,
-    /// Whether a picture came with it.
-    picture: bool,
+    /// Bytes of the picture before it; `None`: it went out alone.
+    picture: Option<usize>,
     /// Whether the line carried nothing when it was sent.
     alone: bool,
-}
-
-/// The requests that go with a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Requests {
-    /// Before it: measures the round trip of a line that carries nothing.
-    pub(super) before: bool,
-    /// After it: tells when it has been seen.
-    pub(super) after: bool,
 }
 
 /// The line to the terminal.
@@ -67,12 +64,14 @@ pub(super) struct Line {
     unanswered: VecDeque<Request>,
     /// Most unanswered pictures.
     window: u32,
-    /// Shortest round trip since the last silence.
+    /// Shortest round trip since the last silence, begun by that of a request alone: a picture keeps a thin line busy.
     shortest: Option<Duration>,
     /// Last round trip that was no silence.
     usual: Duration,
-    /// How long the line last was busy with one picture.
-    busy: Duration,
+    /// Round trip and bytes of the last pictures that went out alone.
+    samples: VecDeque<(Duration, usize)>,
+    /// Bytes of the last picture.
+    last: usize,
     /// Since when an answer is awaited.
     waiting: Option<Duration>,
     /// When the last silence ended.
@@ -88,34 +87,42 @@ impl Line {
             window: 1,
             shortest: None,
             usual: Duration::ZERO,
-            busy: Duration::ZERO,
+            samples: VecDeque::new(),
+            last: 0,
             waiting: None,
             returned: None,
             losses: 0,
         }
     }
 
-    /// What should go with a picture that is sent now. A terminal that does not answer is asked now and then.
-    pub(super) fn requests(&self, now: Duration) -> Requests {
-        let alone = self.unanswered.is_empty();
-        let fails = self.answers == Answers::Fail;
-        let before = self.shortest.is_none() && alone && self.is_settled(now) && !fails;
-        Requests { before, after: !fails || self.unanswered.back().is_none_or(|request| request.sent + LOST <= now) }
+    /// Whether a request alone should go out now, which measures the round trip of a line that carries nothing else.
+    /// Sent just before a picture it would not: ssh hands on in one piece what it has read in one.
+    pub(super) fn wants_probe(&self, now: Duration) -> bool {
+        self.answers == Answers::Come && self.shortest.is_none() && self.unanswered.is_empty() && self.is_settled(now)
     }
 
-    /// A picture goes out with these requests.
-    pub(super) fn sending(&mut self, now: Duration, requests: Requests) {
-        let alone = self.unanswered.is_empty();
-        if requests.before {
-            self.unanswered.push_back(Request { sent: now, picture: false, alone });
-        }
-        if requests.after {
-            if self.answers == Answers::Fail {
-                self.unanswered.clear(); // what is older is lost
+    /// A request goes out alone.
+    pub(super) fn probing(&mut self, now: Duration) {
+        self.ask(now, None);
+    }
+
+    /// A picture of so many bytes goes out; whether a request goes with it. A terminal that does not answer is asked now
+    /// and then.
+    pub(super) fn sending(&mut self, now: Duration, bytes: usize) -> bool {
+        self.last = bytes;
+        if self.answers == Answers::Fail {
+            if self.unanswered.back().is_some_and(|request| request.sent + LOST > now) {
+                return false;
             }
-            self.waiting.get_or_insert(now);
-            self.unanswered.push_back(Request { sent: now, picture: true, alone });
+            self.unanswered.clear(); // what is older is lost
         }
+        self.ask(now, Some(bytes));
+        true
+    }
+
+    fn ask(&mut self, now: Duration, picture: Option<usize>) {
+        self.waiting.get_or_insert(now);
+        self.unanswered.push_back(Request { sent: now, picture, alone: self.unanswered.is_empty() });
     }
 
     /// The oldest request has been answered; how long the line was silent before, if it was.
@@ -126,7 +133,8 @@ impl Line {
         let waited = self.waiting.map_or(Duration::ZERO, |since| now.saturating_sub(since));
         self.waiting = self.unanswered.front().map(|_| now);
         if !first && waited > SILENCE + 2 * self.usual {
-            (self.shortest, self.window, self.returned, self.busy) = (None, 1, Some(now), Duration::ZERO);
+            (self.shortest, self.window, self.returned) = (None, 1, Some(now));
+            self.samples.clear();
             return Some(waited);
         }
         if self.is_settled(request.sent) {
@@ -143,13 +151,20 @@ impl Line {
 
     /// Sets the window by the round trip of a request.
     fn measure(&mut self, request: Request, trip: Duration) {
-        let shortest = self.shortest.map_or(trip, |shortest| shortest.min(trip));
-        self.shortest = Some(shortest);
-        if !request.picture {
-            return;
+        if let Some(bytes) = request.picture.filter(|bytes| request.alone && *bytes >= TELLING) {
+            self.samples.push_back((trip, bytes));
+            if self.samples.len() > SAMPLES {
+                self.samples.pop_front();
+            }
         }
-        if request.alone {
-            self.busy = trip - shortest;
+        let shortest = match (self.shortest, request.picture) {
+            (Some(shortest), _) => shortest.min(trip),
+            (None, None) => trip,
+            (None, Some(_)) => return,
+        };
+        self.shortest = Some(shortest);
+        if request.picture.is_none() {
+            return;
         }
         let most = (shortest * RATE).as_millis().div_ceil(1000).clamp(1, WIDEST.into()) as u32;
         if trip > shortest * 3 / 2 + Duration::from_millis(20) {
@@ -159,10 +174,26 @@ impl Line {
         }
     }
 
-    /// Whether one more picture may go out; `urgent`: it answers a key.
+    /// How long so many bytes keep the line busy, as far as that is known.
+    fn busy(&self, bytes: usize) -> Option<Duration> {
+        let shortest = self.shortest?;
+        let per_byte = |(trip, bytes): &(Duration, usize)| trip.saturating_sub(shortest).as_secs_f64() / *bytes as f64;
+        let quickest = self.samples.iter().map(per_byte).min_by(f64::total_cmp)?;
+        Some(Duration::from_secs_f64(quickest * bytes as f64))
+    }
+
+    /// Whether one more picture may go out; `urgent`: it answers a key, so that it waits for no measurement either.
     pub(super) fn has_room(&self, urgent: bool) -> bool {
-        let pictures = self.unanswered.iter().filter(|request| request.picture).count();
-        self.answers == Answers::Fail || pictures < self.window as usize + usize::from(urgent)
+        if self.answers == Answers::Fail {
+            return true;
+        }
+        let pictures = self.unanswered.iter().filter_map(|request| request.picture);
+        let (count, bytes) = pictures.fold((0, 0), |(count, sum), bytes| (count + 1, sum + bytes));
+        let measuring = count < self.unanswered.len();
+        // On a line that is half full already, a second picture would only wait in it.
+        let half = || self.busy(bytes).zip(self.shortest).is_some_and(|(busy, shortest)| busy * 2 <= shortest);
+        let room = !measuring && (count == 0 || count < self.window as usize && half());
+        room || urgent && count <= self.window as usize
     }
 
     /// Takes note of the time.
@@ -201,13 +232,13 @@ impl Line {
     pub(super) fn interval(&self) -> Duration {
         match self.answers {
             Answers::Fail => BLIND,
-            _ => self.busy * 5 / 2,
+            _ => self.busy(self.last).unwrap_or_default() * 5 / 2,
         }
     }
 
-    /// Until when answers under way are worth waiting for.
-    pub(super) fn all_answered_by(&self) -> Option<Duration> {
-        let last = self.unanswered.back().filter(|_| self.answers != Answers::Fail)?;
-        Some(last.sent + self.usual * 2 + SETTLED)
+    /// How long answers under way are worth waiting for; `None`: there are none.
+    pub(super) fn answers_within(&self) -> Option<Duration> {
+        let awaited = self.answers != Answers::Fail && !self.unanswered.is_empty();
+        awaited.then_some(self.usual * 2 + SETTLED)
     }
 }

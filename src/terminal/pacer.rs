@@ -3,10 +3,7 @@
 
 use std::time::Duration;
 
-use super::{
-    budget::Budget,
-    line::{Line, Requests},
-};
+use super::{budget::Budget, line::Line};
 
 /// A window that is being dragged settles for this long before it is drawn again.
 const SETTLE: Duration = Duration::from_millis(30);
@@ -22,6 +19,8 @@ const ANSWER: Duration = Duration::from_millis(30);
 pub(super) enum Next {
     /// Draw.
     Draw,
+    /// Send a request alone.
+    Probe,
     /// Nothing until then, unless something happens.
     Wait(Duration),
     /// Nothing until something happens.
@@ -102,19 +101,20 @@ impl Pacer {
         (self.dirty, self.urgent, self.resized, self.last) = (None, None, None, Some(now));
     }
 
-    /// The requests that should go with the next picture.
-    pub(super) fn requests(&self, now: Duration) -> Requests {
-        self.line.requests(now)
-    }
-
-    /// A picture of so many bytes is on its way, with these requests.
-    pub(super) fn sending(&mut self, now: Duration, bytes: usize, requests: Requests) {
+    /// A picture of so many bytes goes out; whether a request should follow it.
+    pub(super) fn sending(&mut self, now: Duration, bytes: usize) -> bool {
         self.sending = true;
-        self.line.sending(now, requests);
         self.budget.spend(bytes, now);
+        self.line.sending(now, bytes)
     }
 
-    /// The system has taken the last picture.
+    /// A request goes out alone.
+    pub(super) fn probing(&mut self, now: Duration) {
+        self.sending = true;
+        self.line.probing(now);
+    }
+
+    /// The system has taken what was sent last.
     pub(super) fn sent(&mut self) {
         self.sending = false;
     }
@@ -131,9 +131,9 @@ impl Pacer {
         self.line.forget();
     }
 
-    /// Until when answers under way are worth waiting for.
-    pub(super) fn all_answered_by(&self) -> Option<Duration> {
-        self.line.all_answered_by()
+    /// How long answers under way are worth waiting for; `None`: there are none.
+    pub(super) fn answers_within(&self) -> Option<Duration> {
+        self.line.answers_within()
     }
 
     pub(super) fn next(&mut self, now: Duration) -> Next {
@@ -141,6 +141,9 @@ impl Pacer {
         let settled = self.resized.map(|(first, last)| (last + SETTLE).min(first + UNSETTLED));
         let Some(due) = settled.or(self.urgent).or(self.dirty).filter(|_| !self.sending) else { return Next::Rest };
         let urgent = settled.or(self.urgent).is_some();
+        if !urgent && self.line.wants_probe(now) {
+            return Next::Probe;
+        }
         if !self.line.has_room(urgent) {
             return self.line.gives_up_at().map_or(Next::Rest, |at| Next::Wait(at.saturating_sub(now)));
         }

@@ -4,7 +4,7 @@ use std::{process::Command, time::Duration};
 
 use crate::{
     HINT, SHELL,
-    pty::{Pty, Start, carom},
+    pty::{self, Pty, Start, carom},
     time, watch,
 };
 
@@ -20,6 +20,18 @@ fn over(pty: &mut Pty, seconds: f64) -> (usize, usize) {
     let (from, begin) = (pty.output.len(), shown_time(pty));
     pty.until("the run going on", |screen| time(screen).is_some_and(|t| t >= begin + seconds));
     (pty.output.len() - from, pty.pictures_since(from))
+}
+
+/// Answers everything up to the request alone that measures the line; bytes by then.
+fn measured(pty: &mut Pty) -> usize {
+    let mut answered = 0;
+    while !pty.output.windows(6).any(|bytes| bytes == b"\x1b[c\x1b[c") {
+        assert!(pty.read(pty::PATIENCE).is_some(), "no request came");
+        let asked = pty.requests_since(0);
+        pty.answer(asked - answered);
+        answered = asked;
+    }
+    pty.output.len()
 }
 
 /// Reads what is there, until nothing comes.
@@ -51,9 +63,7 @@ fn a_reader_stalled_for_ten_seconds_finds_two_stale_pictures_at_most_and_is_told
 #[test]
 fn on_a_silent_line_one_key_is_answered_and_the_rest_when_it_returns() {
     let mut pty = Start { answers: false, ..carom(&["box-gas"]) }.run();
-    pty.until_text(HINT);
-    pty.answer(2); // to the one before the first picture and to the one after it
-    let from = pty.output.len();
+    let from = measured(&mut pty);
     pty.until("the next picture", |screen| time(screen).is_some_and(|t| t > 0.0));
     drain(&mut pty);
     assert_eq!((pty.pictures_since(from), pty.requests_since(from)), (1, 1), "one that is not answered");
@@ -141,9 +151,7 @@ fn an_answer_under_way_when_it_quits_or_stops_is_not_typed_at_the_shell() {
         let start = carom(&[]);
         let arguments = ["-c", SHELL, program, "box-gas"];
         let mut pty = Start { program: "bash", arguments: &arguments, answers: false, ..start }.run();
-        pty.until_text(HINT);
-        pty.answer(2);
-        let from = pty.output.len();
+        let from = measured(&mut pty);
         drain(&mut pty);
         let asked = pty.requests_since(from);
         assert_eq!(asked, 1, "and not answered");

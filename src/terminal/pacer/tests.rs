@@ -70,19 +70,22 @@ impl Run {
 
     /// Draws if that is due; when the picture will be on the screen.
     fn draw(&mut self) -> Option<Duration> {
-        if self.pacer.next(self.now) != Next::Draw {
-            return None;
+        match self.pacer.next(self.now) {
+            Next::Draw => {}
+            Next::Probe => {
+                self.pacer.probing(self.now);
+                self.pacer.sent();
+                self.model.take(3, self.now, true);
+                return None;
+            }
+            Next::Wait(_) | Next::Rest => return None,
         }
         self.pacer.drawn(self.now);
-        let requests = self.pacer.requests(self.now);
-        if requests.before {
-            self.model.take(0, self.now, true);
-        }
         // The first picture is a whole one.
         let bytes = if self.model.shown.is_empty() { 2 * self.bytes } else { self.bytes };
-        self.pacer.sending(self.now, bytes as usize, requests);
+        let asks = self.pacer.sending(self.now, bytes as usize);
         self.pacer.sent();
-        let seen = self.model.take(bytes, self.now, requests.after);
+        let seen = self.model.take(bytes, self.now, asks);
         self.model.shown.push(seen);
         Some(seen)
     }
@@ -180,7 +183,7 @@ fn a_key_waits_a_moment_for_the_simulation() {
 #[test]
 fn nothing_is_drawn_while_the_system_has_not_taken_the_last_picture() {
     let mut pacer = Pacer::new(30, None);
-    pacer.sending(START, 1000, pacer.requests(START));
+    assert!(pacer.sending(START, 1000), "a request goes with it");
     pacer.urgent(START);
     assert_eq!(pacer.next(START + 1000 * MS), Next::Rest);
     pacer.sent();
@@ -231,6 +234,20 @@ fn on_a_thin_line_the_rate_is_dropped_and_not_the_answer() {
         let (median, late) = run.latency();
         assert!(median <= most * MS && late <= latest * MS, "{kilobits} kbit/s: {median:?} {late:?}");
     }
+}
+
+#[test]
+fn small_pictures_on_a_thin_line_do_not_make_room_for_large_ones() {
+    let mut run = Run::new(Model::new(64, 300), 1900);
+    run.go(3000 * MS);
+    run.bytes = 60; // the help covers the scene
+    run.go(5000 * MS);
+    run.bytes = 1900;
+    run.go(300 * MS);
+    let queued = run.model.free.saturating_sub(run.now);
+    assert!(queued <= 250 * MS, "{queued:?} of pictures are queued");
+    let (median, late) = run.latency();
+    assert!(median <= 900 * MS && late <= 1200 * MS, "{median:?} {late:?}");
 }
 
 #[test]
@@ -311,6 +328,6 @@ fn answers_that_nobody_asked_for_change_nothing() {
     run.model.replies.clear();
     run.pacer.forget_requests();
     assert_eq!(run.pacer.replied(run.now), None);
-    assert_eq!(run.pacer.all_answered_by(), None);
+    assert_eq!(run.pacer.answers_within(), None);
     assert!(run.rate() < 10, "as before");
 }
