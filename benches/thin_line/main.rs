@@ -25,7 +25,7 @@ use wire::{LONG, THIN, THINNEST, Wire, timed};
 const CAROM: &str = env!("CARGO_BIN_EXE_carom");
 
 /// Keys per session.
-const KEYS: usize = 25;
+const KEYS: usize = 20;
 
 /// The sessions: scene, columns and rows.
 const SESSIONS: [(&str, (u16, u16)); 3] = [("box-gas", (80, 24)), ("box-gas", (120, 40)), ("elastic-666", (80, 24))];
@@ -52,8 +52,8 @@ fn main() {
 fn row(wire: Wire, scene: &str, size: (u16, u16)) -> String {
     let server = Server::start();
     let mut screen = start(&server, wire, scene, size);
-    watch(&mut screen, Duration::from_secs(3));
-    let (before, span) = (screen.complete, Duration::from_secs(5));
+    watch(&mut screen, Duration::from_secs(2));
+    let (before, span) = (screen.complete, Duration::from_secs(4));
     watch(&mut screen, span);
     let rate = (screen.complete - before) as f64 / span.as_secs_f64();
     let mut keys: Vec<Duration> = (0..KEYS).map(|i| press(&mut screen, i)).collect();
@@ -63,7 +63,7 @@ fn row(wire: Wire, scene: &str, size: (u16, u16)) -> String {
     screen.wait_for("word about the silence", |shown| shown.contains("The line was silent for"));
     let stale = screen.begun - begun - 1; // the last is the one that tells
     watch(&mut screen, Duration::from_secs(2));
-    let mut ends: Vec<Duration> = (0..5).map(|_| quit(&server, wire, scene, size)).collect();
+    let mut ends: Vec<Duration> = (0..3).map(|_| quit(&server, wire, scene, size)).collect();
     ends.sort();
     format!(
         "| {} kbit/s, {} ms | {scene} {}×{} | {} ms | {} ms | {} ms | {rate:.1} | {stale} |",
@@ -73,7 +73,7 @@ fn row(wire: Wire, scene: &str, size: (u16, u16)) -> String {
         size.1,
         keys[KEYS / 2].as_millis(),
         keys[KEYS * 95 / 100].as_millis(),
-        ends[2].as_millis(),
+        ends[1].as_millis(),
     )
 }
 
@@ -93,7 +93,7 @@ fn watch(screen: &mut Screen, time: Duration) {
 /// From `?` to the whole picture with the help; then the help is closed.
 fn press(screen: &mut Screen, index: usize) -> Duration {
     // Some moment of the rhythm, the same ones each time.
-    watch(screen, Duration::from_millis(900 + 37 * index as u64 % 501));
+    watch(screen, Duration::from_millis(500 + 37 * index as u64 % 501));
     let wait_for = |screen: &mut Screen, help: bool| {
         while screen.text().contains("Esc closes") != help || screen.begun != screen.complete {
             screen.read(Duration::from_secs(60)).expect("an answer");

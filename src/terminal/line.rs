@@ -29,8 +29,10 @@ pub(super) const BLIND: Duration = Duration::from_millis(100);
 /// when the line falls silent.
 const RATE: u32 = 25;
 
-/// Widest window.
+/// Widest window; and on a line that a thousand bytes keep busy for longer than this.
 const WIDEST: u32 = 4;
+const WIDEST_THIN: u32 = 2;
+const THIN: Duration = Duration::from_millis(5);
 
 /// So many pictures in a row tell how long a byte takes; the quickest counts, for a busy machine is no thin line.
 const SAMPLES: usize = 4;
@@ -166,12 +168,14 @@ impl Line {
         if request.picture.is_none() {
             return;
         }
-        let most = (shortest * RATE).as_millis().div_ceil(1000).clamp(1, WIDEST.into()) as u32;
+        let widest = if self.busy(1000).is_some_and(|busy| busy > THIN) { WIDEST_THIN } else { WIDEST };
+        let most = (shortest * RATE).as_millis().div_ceil(1000).clamp(1, widest.into()) as u32;
         if trip > shortest * 3 / 2 + Duration::from_millis(20) {
             self.window = 1;
         } else if trip <= shortest * 5 / 4 + Duration::from_millis(10) {
-            self.window = (self.window + 1).min(most);
+            self.window += 1;
         }
+        self.window = self.window.min(most);
     }
 
     /// How long so many bytes keep the line busy, as far as that is known.
@@ -227,12 +231,12 @@ impl Line {
         self.waiting = None;
     }
 
-    /// Shortest time between two pictures. A line that a picture keeps busy is left alone for longer than that, so that
-    /// the answer to a key, which may come at any moment, mostly finds it free.
+    /// Shortest time between two pictures. A line that a picture keeps busy is left alone for as long again, so that the
+    /// answer to a key, which may come at any moment, finds it free as often as not.
     pub(super) fn interval(&self) -> Duration {
         match self.answers {
             Answers::Fail => BLIND,
-            _ => self.busy(self.last).unwrap_or_default() * 5 / 2,
+            _ => self.busy(self.last).unwrap_or_default() * 2,
         }
     }
 

@@ -8,8 +8,8 @@ use super::{budget::Budget, line::Line};
 /// A window that is being dragged settles for this long before it is drawn again.
 const SETTLE: Duration = Duration::from_millis(30);
 
-/// A window that never settles is drawn this often.
-const UNSETTLED: Duration = Duration::from_millis(250);
+/// A window that never settles is drawn this often: each time it is a whole picture, and a drag has many sizes.
+const UNSETTLED: Duration = Duration::from_millis(600);
 
 /// The simulation's answer to a key is awaited for this long before a picture without it is drawn.
 const ANSWER: Duration = Duration::from_millis(30);
@@ -49,6 +49,8 @@ pub(super) struct Pacer {
     sending: bool,
     /// First and last change of size not yet drawn.
     resized: Option<(Duration, Duration)>,
+    /// Last change of size.
+    size_since: Option<Duration>,
     line: Line,
     budget: Budget,
 }
@@ -63,6 +65,7 @@ impl Pacer {
             last: None,
             sending: false,
             resized: None,
+            size_since: None,
             line: Line::new(),
             budget: Budget::new(bytes),
         }
@@ -94,6 +97,7 @@ impl Pacer {
     pub(super) fn resized(&mut self, now: Duration) {
         let first = self.resized.map_or(now, |(first, _)| first);
         self.resized = Some((first, now));
+        self.size_since = Some(now);
     }
 
     /// A picture has been drawn.
@@ -139,7 +143,10 @@ impl Pacer {
     pub(super) fn next(&mut self, now: Duration) -> Next {
         self.line.tick(now);
         let settled = self.resized.map(|(first, last)| (last + SETTLE).min(first + UNSETTLED));
-        let Some(due) = settled.or(self.urgent).or(self.dirty).filter(|_| !self.sending) else { return Next::Rest };
+        // Between two sizes of a drag a picture of the run would be of no more use than one of a size.
+        let calm = self.size_since.map_or(Duration::ZERO, |since| since + SETTLE);
+        let changed = self.dirty.map(|due| due.max(calm));
+        let Some(due) = settled.or(self.urgent).or(changed).filter(|_| !self.sending) else { return Next::Rest };
         let urgent = settled.or(self.urgent).is_some();
         if !urgent && self.line.wants_probe(now) {
             return Next::Probe;

@@ -97,7 +97,7 @@ impl Run {
             self.model.replies.pop_front();
             self.returns.extend(self.pacer.replied(self.now));
         }
-        if running && self.now.as_millis() % 16 == 0 {
+        if running && self.now.as_millis().is_multiple_of(16) {
             self.pacer.changed(self.now);
         }
         self.draw()
@@ -191,18 +191,33 @@ fn nothing_is_drawn_while_the_system_has_not_taken_the_last_picture() {
 }
 
 #[test]
-fn a_dragged_window_is_drawn_when_it_settles_or_four_times_a_second() {
+fn a_dragged_window_is_drawn_when_it_settles_or_now_and_then() {
     let mut pacer = Pacer::new(30, None);
-    for ms in (0..=200).step_by(20) {
+    for ms in (0..=560).step_by(20) {
         pacer.resized(START + ms * MS);
-        pacer.urgent(START + ms * MS);
+        pacer.changed(START + ms * MS);
     }
-    assert_eq!(pacer.next(START + 200 * MS), Next::Wait(30 * MS));
-    for ms in (220..=240).step_by(20) {
-        pacer.resized(START + ms * MS);
+    assert_eq!(pacer.next(START + 560 * MS), Next::Wait(30 * MS));
+    pacer.resized(START + 580 * MS);
+    assert_eq!(pacer.next(START + 580 * MS), Next::Wait(20 * MS));
+    assert_eq!(pacer.next(START + 600 * MS), Next::Draw);
+    pacer.drawn(START + 600 * MS);
+    pacer.changed(START + 601 * MS);
+    assert_eq!(pacer.next(START + 601 * MS), Next::Wait(33_333_333 * Duration::from_nanos(1) - MS), "its turn");
+}
+
+#[test]
+fn forty_sizes_in_a_second_of_a_running_run_are_two_pictures() {
+    let mut run = Run::new(Model::new(1_000_000, 1), 2000);
+    run.go(2000 * MS);
+    let before = run.model.shown.len();
+    for _ in 0..40 {
+        run.pacer.resized(run.now);
+        run.go(25 * MS);
     }
-    assert_eq!(pacer.next(START + 240 * MS), Next::Wait(10 * MS));
-    assert_eq!(pacer.next(START + 250 * MS), Next::Draw);
+    assert_eq!(run.model.shown.len() - before, 1, "while it is dragged");
+    run.go(6 * MS);
+    assert_eq!(run.model.shown.len() - before, 2, "and when it has settled");
 }
 
 #[test]
@@ -225,7 +240,7 @@ fn on_a_fast_and_long_line_the_window_makes_a_smooth_run() {
 #[test]
 fn on_a_thin_line_the_rate_is_dropped_and_not_the_answer() {
     for (kilobits, trip, bytes, most, latest, slowest) in
-        [(256, 100, 1900, 250, 400, 5), (256, 100, 4200, 250, 400, 3), (64, 300, 1900, 900, 1200, 1)]
+        [(256, 100, 1900, 250, 400, 5), (256, 100, 4200, 260, 400, 3), (64, 300, 1900, 900, 1200, 1)]
     {
         let mut run = Run::new(Model::new(kilobits, trip), bytes);
         run.go(2000 * MS);
