@@ -104,8 +104,8 @@ impl Driver {
     fn run(mut self) -> Result<Outcome, Error> {
         let outcome = self.until_the_end();
         match outcome {
-            Ok(Outcome::Quit) => self.leave(!signals::somebody_could_continue_us()),
-            Ok(Outcome::Signal(number)) if number != SIGHUP => self.leave(true),
+            Ok(Outcome::Quit) => self.leave(!signals::somebody_could_continue_us())?,
+            Ok(Outcome::Signal(number)) if number != SIGHUP => self.leave(true)?,
             _ => {}
         }
         outcome
@@ -173,7 +173,7 @@ impl Driver {
             }
             Event::End(signal) => return Ok(Some(Outcome::Signal(signal))),
             Event::Gone => return Ok(Some(Outcome::Signal(SIGHUP))),
-            Event::Panicked(said) => return Err(Error::Panic(said.lines().collect::<Vec<_>>().join(" "))),
+            Event::Panicked(said) => return Err(panicked(&said)),
         }
         Ok(None)
     }
@@ -210,17 +210,31 @@ impl Driver {
 
     /// Leaves the screen, and waits for answers under way: the next reader of the terminal would take them for keys. Only
     /// for a moment if that is no shell (`briefly`).
-    fn leave(&mut self, briefly: bool) {
+    ///
+    /// # Errors
+    /// If a thread panics meanwhile.
+    fn leave(&mut self, briefly: bool) -> Result<(), Error> {
         self.guard.session().leave_screen();
         let begin = self.clock.elapsed();
         while let Some(patience) = self.pacer.answers_within() {
             let end = begin + if briefly { LEAVE } else { patience };
             match self.events.recv_timeout(end.saturating_sub(self.clock.elapsed())) {
                 Ok(Event::Replied) => self.count_replies(),
-                Ok(Event::Gone | Event::End(_) | Event::Panicked(_)) | Err(_) => return,
-                Ok(_) => {}
+                // After a suspension the loop goes on, and must have missed nothing.
+                Ok(Event::Sent) => self.pacer.sent(),
+                Ok(Event::Resized) => self.pacer.resized(self.clock.elapsed()),
+                Ok(Event::News) => {
+                    let _ = self.app.handle(Input::News);
+                }
+                Ok(Event::Typed(_)) => {
+                    let _ = self.backlog.obeyed();
+                }
+                Ok(Event::Interrupted | Event::Suspend | Event::Continued) => {}
+                Ok(Event::Panicked(said)) => return Err(panicked(&said)),
+                Ok(Event::Gone | Event::End(_)) | Err(_) => break,
             }
         }
+        Ok(())
     }
 
     /// Takes note of replies of which nothing will be said.
@@ -250,7 +264,7 @@ impl Driver {
             self.repaint();
             return Ok(());
         }
-        self.leave(false);
+        self.leave(false)?;
         self.guard.session().give_back();
         // Continuing sends a signal of its own, which takes the terminal again.
         signals::stop().map_err(Error::Io)
@@ -275,4 +289,9 @@ impl Driver {
             self.writer.send(bytes, takes);
         }
     }
+}
+
+/// The text of a panic on one line.
+fn panicked(said: &str) -> Error {
+    Error::Panic(said.lines().collect::<Vec<_>>().join(" "))
 }

@@ -166,6 +166,10 @@ fn an_answer_under_way_when_it_quits_or_stops_is_not_typed_at_the_shell() {
         pty.send("\n");
         if leave == "\x1a" {
             pty.until_text(HINT);
+            pty.answers = true;
+            let from = shown_time(&pty);
+            pty.answer(1);
+            pty.until("the run going on", |screen| time(screen).is_some_and(|t| t > from + 0.5));
             pty.send("q");
         }
         pty.until_text("ended");
