@@ -50,7 +50,7 @@ const STACKS: Generator = small(narrow::stack_scene);
 /// Every frame is judged with hundreds of spheres: two seconds.
 const CROWDS: Generator = Generator { scene: crowds::crowd_scene, halves: 4, budget: 2_000_000, boxed: false };
 
-/// Slices of a thousand turns from which on a scene is told to have been laborious.
+/// Slices of a thousand turns from which on a scene is told to have been laborious; or a second of the processor.
 const LABOUR: u64 = 200;
 
 type Check<'a> = &'a (dyn Fn(u64, u32, &mut Met) -> Result<(), Failure> + Sync);
@@ -66,7 +66,7 @@ fn sweep(seeds: &[(u64, u32)], check: Check) -> (Met, Vec<Failure>) {
             let failure = check(seed, halves, &mut met).err();
             if let Some(failure) = &failure {
                 tell(&failure.text);
-            } else if met.slices > LABOUR {
+            } else if met.slices > LABOUR || met.cpu > 1.0 {
                 tell(&format!("seed {seed}: {} thousand turns, {} impacts, {:.1} s", met.slices, met.impacts, met.cpu));
             }
             done.push((seed, met, failure));

@@ -15,7 +15,7 @@ pub(super) struct Promise {
 pub(super) const ULPS: f64 = 16.0 * f64::EPSILON;
 
 /// What event-driven methods promise for flights and faces, and for curved rest.
-const FLIGHT: f64 = 1e-12;
+pub(super) const FLIGHT: f64 = 1e-12;
 const CURVED: f64 = 1e-9;
 
 /// What `paper` accepts beyond its tolerance.

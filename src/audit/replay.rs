@@ -11,7 +11,7 @@ use crate::physics::{Class, Contact, Kind, Method, Model, State};
 use super::finding::{Bodies, Fault, Findings};
 use super::law::reduced_mass;
 use super::overlap::{is_summed_up, restitution};
-use super::promise::ULPS;
+use super::promise::{FLIGHT, ULPS};
 
 /// Share of the speeds that rounding may leave unexplained: impacts of bodies of very different mass lose some digits.
 const ROUNDING: f64 = 1e-11;
@@ -37,6 +37,8 @@ struct Known {
     t: f64,
     /// Whether an impact of the frame has changed it.
     struck: bool,
+    /// Whether that was one on a sphere that something else holds.
+    on_held: bool,
 }
 
 /// Velocities done again.
@@ -65,7 +67,7 @@ impl Replay {
         findings: &mut Findings,
     ) -> Option<f64> {
         self.known.clear();
-        self.known.extend(before.v.iter().map(|&v| Known { v, t: before.t, struck: false }));
+        self.known.extend(before.v.iter().map(|&v| Known { v, t: before.t, struck: false, on_held: false }));
         for (scale, (v, w)) in self.scale.iter_mut().zip(before.v.iter().zip(&after.v)) {
             *scale = scale.max(v.length()).max(w.length());
         }
@@ -165,6 +167,8 @@ impl Replay {
         self.known[a].struck = true;
         if pair {
             self.known[b].struck = true;
+            self.known[a].on_held |= bound.holds[b];
+            self.known[b].on_held |= bound.holds[a];
             let impulse = n * (change * reduced_mass(model, row));
             self.known[a].v += impulse / model.masses[a];
             self.known[b].v -= impulse / model.masses[b];
@@ -179,9 +183,12 @@ impl Replay {
         taken
     }
 
-    /// What rounding of a sphere's place is worth, m²/s²: 2 a · 64 ulp.
+    /// What the error of a sphere's place is worth, m²/s²: 2 a · 64 ulp; where it met what moves on a curve, which event-driven
+    /// methods follow by chords, what they promise of places, 2 a · 1e-12 r.
     fn worth(&self, model: &Model, after: &State, i: usize) -> f64 {
-        2.0 * model.acceleration(i).length() * 4.0 * ULPS * (after.x[i].abs().max_element() + model.radii[i])
+        let rounding = 4.0 * ULPS * (after.x[i].abs().max_element() + model.radii[i]);
+        let chord = if self.known[i].on_held { FLIGHT * model.radii[i] } else { 0.0 };
+        2.0 * model.acceleration(i).length() * (rounding + chord)
     }
 
     /// What may stay unexplained of a velocity, m/s: rounding of speeds and of the clock, for what has been struck what

@@ -32,9 +32,15 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
         findings.hold(Fault::RestGap, t, bodies, [gap, allowed]);
         let v = |i: usize| frame.state.v[i];
         let other = if row.kind == Kind::Pair { v(row.b) } else { DVec3::ZERO };
-        // what carries nothing any longer may open, as long as its gap is that of what touches
-        let approach = -(v(row.a) - other).dot(offset / distance);
-        findings.hold(Fault::RestSpeed, t, bodies, [approach, slowest(model, settings, row, [v(row.a), other])]);
+        let opening = (v(row.a) - other).dot(offset / distance);
+        let mut slowest = slowest(model, settings, row, [v(row.a), other]);
+        if opening > 0.0 {
+            // what carries nothing any longer opens until its gap shows: the speed that it has come to by then
+            let pull = |i: usize| model.acceleration(i).length();
+            let both = pull(row.a) + if row.kind == Kind::Pair { pull(row.b) } else { 0.0 };
+            slowest += (2.0 * both * allowed).sqrt();
+        }
+        findings.hold(Fault::RestSpeed, t, bodies, [opening.abs(), slowest]);
     }
 }
 

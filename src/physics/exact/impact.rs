@@ -167,7 +167,8 @@ impl<D: Detector> Exact<D> {
         }
         match self.class(model, log, &meeting, since) {
             Class::Collide => self.collide(model, log, &meeting),
-            Class::Rest if self.brushes(&meeting) => {
+            // an island that takes that back brings it again: the two are solved together then
+            Class::Rest if self.brushes(&meeting) && !self.instant.is_stuck(key) => {
                 self.turn_back(model, &meeting);
                 self.follow_up(model, log, key)
             }

@@ -51,6 +51,9 @@ const LOST: f64 = 64.0 * f64::EPSILON;
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Instant {
+    /// When it began, s. At the clock's zero, which resolves any time, what follows within rounding of the time that
+    /// matters first belongs to it too.
+    began: f64,
     pub(super) events: u64,
     /// What they count, and those of this stretch, which began at the time `since`, s.
     spent: u64,
@@ -60,7 +63,7 @@ pub(super) struct Instant {
     chain: BTreeMap<Key, (u32, f64)>,
     /// Whether one of them has collapsed.
     collapsed: bool,
-    /// How often each contact has opened.
+    /// How often each contact has opened, or brushed.
     releases: BTreeMap<Key, u32>,
 }
 
@@ -85,8 +88,8 @@ impl Instant {
         self.has_collapsed(key)
     }
 
-    /// Whether a contact that opens has done so too often at this instant: each release brings back another contact of
-    /// its island, which brings back this one. Held together for a moment, they are solved together.
+    /// Whether a contact that opens, or brushes, has done so too often at this instant: each time brings back another contact
+    /// of its island, which brings back this one. Held together for a moment, they are solved together.
     pub(super) fn is_stuck(&mut self, key: Key) -> bool {
         let count = self.releases.entry(key).or_default();
         *count += 1;
@@ -114,9 +117,11 @@ pub(super) fn beginning(model: &Model, state: &State) -> f64 {
 impl<D: Detector> Exact<D> {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     pub(super) fn advance_clock(&mut self, time: f64, spheres: usize) -> Result<(), Stall> {
+        let tick = self.tick();
         let Exact { instant, now, beginning, .. } = self;
-        if time > *now {
-            *now = time;
+        *now = now.max(time);
+        if time - instant.began >= tick {
+            instant.began = time;
             (instant.events, instant.spent, instant.collapsed) = (0, 0, false);
             if !instant.chain.is_empty() || !instant.releases.is_empty() {
                 instant.chain.clear();

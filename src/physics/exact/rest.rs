@@ -168,8 +168,8 @@ impl Settled {
     }
 
     /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
-    /// contact of the island, idle or just opening: nothing else would, and to part them afterwards would push one body
-    /// alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
+    /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
+    /// push one body alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
     /// stand still on both would stop the motion along them, and the one that opens lets go instead.
     fn still(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
         let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
@@ -186,9 +186,7 @@ impl Settled {
             let approaches = |index: usize| {
                 let contact = &resting[index];
                 let noise = ROUNDING * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
-                // the normal of an edge, or a corner, is off by as much as its border is late: what opens there may seem to close
-                let sharp = contact.b.is_none() && contact.surface != Surface::Face;
-                let may_close = self.fate[index] == Fate::Idle || !sharp;
+                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
                 may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
             };
             let new: Vec<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();

@@ -20,7 +20,7 @@ mod hold;
 mod island;
 mod problem;
 
-pub use bind::bind;
+pub use bind::{bind, restore};
 pub use hold::{Bodies, Fate, Held, Resting, Surface, accelerations, hold, velocities};
 pub use island::{Island, islands};
 

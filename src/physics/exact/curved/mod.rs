@@ -23,7 +23,7 @@ use polynomial::{Polynomial, cube_root, fall_below_zero};
 use crate::physics::contact_time::{Part, edge_direction, touch_part};
 use crate::physics::model::Face;
 use crate::physics::parts::{BORDER, room};
-use crate::physics::support::{Bodies, Resting, Row, Surface, accelerations, bind};
+use crate::physics::support::{Bodies, Resting, Row, Surface, accelerations, bind, restore};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
 const TOLERANCE: f64 = 1e-15;
@@ -219,6 +219,11 @@ impl Arc {
             reach(now.max(path.jerk(from + reach(now)).length()))
         };
         self.start.bodies.iter().enumerate().map(of).fold(left, f64::min)
+    }
+
+    /// Accelerations (m/s²), by body, of the chord that begins at `from` of the arc and is `h` long, s.
+    pub(super) fn chord_accelerations(&self, from: f64, h: f64) -> Vec<DVec3> {
+        (0..self.start.bodies.len()).map(|i| self.polynomial(i).chord_acceleration(from, h)).collect()
     }
 
     /// The path of one body.

@@ -77,14 +77,14 @@ impl<'a> Motion<'a> {
         let still = vec![DVec3::ZERO; bodies.len()];
         let mut rows = self.rows(bodies, |gap, _| gap);
         rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
-        let shift = bind(&self.inverse_mass, &still, &rows).0;
+        let shift = restore(&self.inverse_mass, &still, &rows);
         bodies.iter_mut().zip(shift).for_each(|(body, shift)| body.x += shift);
         self.restore_velocities(bodies);
     }
 
     pub(super) fn restore_velocities(&self, bodies: &mut [Body]) {
         let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let v = bind(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0)).0;
+        let v = restore(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0));
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 

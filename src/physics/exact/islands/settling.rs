@@ -92,10 +92,11 @@ impl<D: Detector> Exact<D> {
     /// Sends the spheres along a chord, and gives it to their island.
     fn follow(&mut self, spheres: &[usize], curve: Curve) {
         let h = curve.length;
-        for ((&i, start), end) in spheres.iter().zip(curve.at(0.0)).zip(curve.at(h)) {
+        let accelerations = curve.arc.chord_accelerations(curve.offset, h);
+        for ((&i, start), a) in spheres.iter().zip(curve.at(0.0)).zip(accelerations) {
             self.flight.rewrite(i, self.now, start.x, start.v);
             if h > 0.0 {
-                self.flight.accelerate(i, (end.x - start.x - start.v * h) * (2.0 / (h * h)));
+                self.flight.accelerate(i, a);
             }
         }
         let until = (self.now + h).max(self.now.next_up());
