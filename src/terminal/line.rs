@@ -7,8 +7,10 @@
 
 use std::{collections::VecDeque, time::Duration};
 
-/// A terminal that has not answered its first request for this long is taken for one that never does.
+/// A terminal that has not answered its first request for this long, and for each byte of its first picture so long as
+/// 64 kbit/s need for it, is taken for one that never does.
 const FIRST: Duration = Duration::from_secs(1);
+const FIRST_BYTE: Duration = Duration::from_micros(125);
 
 /// Without an answer for this long, beyond what is usual, the line is silent.
 const SILENCE: Duration = Duration::from_secs(2);
@@ -210,7 +212,7 @@ impl Line {
     /// When the terminal will be taken for one that does not answer, unless it does.
     pub(super) fn gives_up_at(&self) -> Option<Duration> {
         let first = self.unanswered.front().filter(|_| self.answers == Answers::Unknown);
-        first.map(|request| request.sent + FIRST)
+        first.map(|request| request.sent + FIRST + FIRST_BYTE * request.picture.unwrap_or_default().min(100_000) as u32)
     }
 
     /// A key has come.
