@@ -12,6 +12,22 @@
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
 //! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
 //!
+//! ```
+//! use carom::measure::Deviation;
+//! use carom::physics::Simulation;
+//! use carom::scene::{self, Method, Settings};
+//!
+//! let scene = scene::open("paper-1")?.scene;
+//! let at = |method| {
+//!     let mut run = Simulation::new(&scene, Settings { method, dt: 1e-3, tolerance: 1e-6 });
+//!     run.run_to(0.25, |_| Some(Simulation::SLICE));
+//!     run.at(0.25).x
+//! };
+//! let off = Deviation::between(&at(Method::Paper), &at(Method::Exact));
+//! assert!(off.distance < 0.1, "{} m", off.distance);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Begin with `trade`, then `sample` and `yardstick`. Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it returns false.
 //! Everything but times repeats to the bit.
 //!

@@ -5,6 +5,18 @@
 //! then [`method`]; then `events`, the engine under `exact` and `swept`, or the methods `paper` and `moreau`. What they
 //! share: [`impact_law`], [`contact_time`] (when do bodies touch), [`overlap`] (how deep now), [`support`] (what holds).
 //!
+//! ```
+//! use carom::physics::{Progress, Simulation};
+//! use carom::scene::{self, Method, Settings};
+//!
+//! let scene = scene::open("paper-1")?.scene;
+//! let mut run = Simulation::new(&scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-6 });
+//! let end = run.run_to(1.0, |_| Some(Simulation::SLICE));
+//! assert!(matches!(end, Progress::Reached));
+//! assert_eq!(run.state().x.len(), scene.spheres.len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
 //! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 

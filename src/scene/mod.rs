@@ -5,6 +5,17 @@
 //!                                                            Draft, built in code ─ rules ─▶ Scene
 //! ```
 //!
+//! ```
+//! use carom::scene::{Draft, Sphere};
+//! use glam::DVec3;
+//!
+//! let ball = |x| Sphere { x, v: DVec3::ZERO, mass: 1.0, radius: 0.5, force: DVec3::ZERO, color: None, name: None };
+//! let apart = Draft::new(Vec::new(), vec![ball(DVec3::ZERO), ball(DVec3::X * 2.0)]);
+//! assert!(apart.validated().is_ok());
+//! let one_in_the_other = Draft::new(Vec::new(), vec![ball(DVec3::ZERO), ball(DVec3::X * 0.1)]);
+//! assert!(one_in_the_other.validated().is_err());
+//! ```
+//!
 //! Begin with `validated`, which says what a scene holds, then `rules`.
 //!
 //! | file | owns |

@@ -89,7 +89,7 @@ pub(crate) struct Cells {
     overflow: usize,
     /// Slots of the spheres that are in no cube: all look at them.
     loose: Vec<u32>,
-    /// Walls near the cubes of cell c: `walls[starts[c]..starts[c + 1]]`, ascending.
+    /// Walls near the cubes of cell c: `walls[starts[c]..starts[c + 1]]`, ascending; all of them if `starts` is empty.
     starts: Vec<u32>,
     walls: Vec<u32>,
 }
@@ -197,6 +197,9 @@ impl Cells {
         let index = cell.index as usize;
         if self.table[index].0[ENTRIES] & WALLS == 0 {
             return &[];
+        }
+        if self.starts.is_empty() {
+            return &self.walls;
         }
         &self.walls[self.starts[index] as usize..self.starts[index + 1] as usize]
     }

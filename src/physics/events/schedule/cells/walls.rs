@@ -10,6 +10,10 @@ use crate::physics::wall::Face;
 /// Leaves room for the rounding of coordinates.
 const MARGIN: f64 = 1.0 + 1e-6;
 
+/// Notes of a wall near a place that there may be, 8 bytes each: a quarter of a gigabyte. A hundred shelves through a million
+/// spheres need some millions; a thousand walls on each other, over a lattice of a million, would need ten times as many.
+const MOST_NOTES: usize = 1 << 25;
+
 /// The cubes from one corner to the other, and where among them a wall's plane is.
 struct Slab<'a> {
     face: &'a Face,
@@ -22,8 +26,13 @@ struct Slab<'a> {
 }
 
 impl Cells {
-    /// Lists each wall in every place whose cubes a sphere of the table touches it from.
+    /// Lists each wall in every place whose cubes a sphere of the table touches it from; where that would be too many
+    /// notes, all walls are near everywhere.
     pub(crate) fn register(&mut self, model: &Model) {
+        self.register_within(model, MOST_NOTES);
+    }
+
+    fn register_within(&mut self, model: &Model, most: usize) {
         let reach = self.widest * MARGIN;
         let mut near: Vec<(u32, u32)> = Vec::new();
         for (wall, face) in model.faces.iter().enumerate() {
@@ -38,6 +47,9 @@ impl Cells {
                 half: 0.5 * self.edge * (n.x + n.y + n.z) * MARGIN + reach,
             };
             self.places_near(&slab, |place| near.push((place, wall as u32)));
+            if near.len() > most {
+                return self.register_everywhere(model.faces.len());
+            }
         }
         near.sort_unstable();
         near.dedup();
@@ -52,6 +64,12 @@ impl Cells {
             self.table[place as usize].0[ENTRIES] |= WALLS;
         }
         self.walls = near.into_iter().map(|(_, wall)| wall).collect();
+    }
+
+    fn register_everywhere(&mut self, walls: usize) {
+        self.starts = Vec::new();
+        self.walls = (0..walls as u32).collect();
+        self.table.iter_mut().for_each(|place| place.0[ENTRIES] |= WALLS);
     }
 
     /// Every place near a wall, column by column along the steep axis, so that a slanted wall costs what it covers and
@@ -96,5 +114,35 @@ impl Cells {
         let (from, to) = (a.min(b).floor() - 1.0, a.max(b).ceil() + 1.0);
         let last = f64::from(high[steep]) - f64::from(low[steep]);
         (low[steep] + from.clamp(0.0, last + 1.0) as i32, low[steep] + to.clamp(-1.0, last) as i32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::events::schedule::cells::Layout;
+
+    #[test]
+    fn where_notes_of_walls_would_be_too_many_all_walls_are_near_everywhere() {
+        // a floor of 30 × 30 spheres, and ten walls above it, a hair apart
+        let wall =
+            |i: u32| format!("Wall(center: (50, 50, {}), s1: (100, 0, 0), s2: (0, 100, 0))", 1.5 + f64::from(i) * 1e-6);
+        let walls: Vec<String> = (0..10).map(wall).collect();
+        let spheres = "Lattice(origin: (1, 1, 1), counts: (30, 30, 1), spacing: 3, mass: 1, radius: 0.3)";
+        let text = format!("Scene(walls: [{}], spheres: [{spheres}])", walls.join(", "));
+        let model = Model::new(&crate::scene::parse(&text, "floor").expect("a valid scene"));
+        let mut cells = Cells::new(&model, Layout::new(&model.initial.x, 0.3));
+        let noted = cells.walls.len();
+        assert!(noted > 1000, "{noted} notes");
+        let near = |cells: &Cells| {
+            let of = |&x| cells.walls_near(cells.cell_of(x)).to_vec();
+            model.initial.x.iter().map(of).collect::<Vec<_>>()
+        };
+        let before = near(&cells);
+        cells.register_within(&model, noted - 1);
+        assert_eq!(cells.walls.len(), 10);
+        for (all, few) in near(&cells).iter().zip(before) {
+            assert!(few.iter().all(|wall| all.contains(wall)), "{few:?}");
+        }
     }
 }
