@@ -1,9 +1,15 @@
 //! Does it work where it will be used: over SSH and in tmux? Real programs on the loopback, nothing simulated.
 
+#[path = "ssh/lines.rs"]
+mod lines;
+#[path = "ssh/mosh.rs"]
+mod mosh;
 #[path = "ssh/screen.rs"]
 mod screen;
 #[path = "ssh/server.rs"]
 mod server;
+#[path = "../benches/thin_line/wire.rs"]
+mod wire;
 
 use std::fs;
 use std::os::fd::OwnedFd;
@@ -11,7 +17,7 @@ use std::process::Command;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Pid, PidfdFlags, pidfd_open};
-use screen::Screen;
+use screen::{SIZE, Screen};
 use server::{Server, tool};
 
 /// Longest life of a program after its terminal, s; reached only by a test that fails.
@@ -33,7 +39,7 @@ fn time(shown: &str) -> String {
 }
 
 fn over_ssh(server: &Server, command: &str) -> Screen {
-    Screen::start(&tool("ssh"), &server.arguments(command))
+    Screen::start(&tool("ssh"), &server.arguments(server.port(), command), SIZE)
 }
 
 #[test]
@@ -126,7 +132,7 @@ impl Drop for Tmux {
 fn in_tmux_a_frame_comes_a_key_is_obeyed_and_q_ends_it() {
     let tmux = Tmux::new();
     let command = format!("exec {CAROM} paper-1 --paused");
-    let mut screen = Screen::start(&tool("tmux"), &tmux.arguments(&["new-session", "-s", "carom", &command]));
+    let mut screen = Screen::start(&tool("tmux"), &tmux.arguments(&["new-session", "-s", "carom", &command]), SIZE);
     let first = screen.wait_for("first frame", is_frame);
     tmux.tell(&["send-keys", "-t", "carom", "."]);
     screen.wait_for("step", |shown| is_frame(shown) && time(shown) != time(&first));
@@ -141,7 +147,7 @@ fn in_tmux_a_frame_comes_a_key_is_obeyed_and_q_ends_it() {
 fn the_screen_and_render_show_the_same_frame() {
     let tmux = Tmux::new();
     let command = format!("exec {CAROM} paper-1 --paused");
-    let mut screen = Screen::start(&tool("tmux"), &tmux.arguments(&["new-session", "-s", "carom", &command]));
+    let mut screen = Screen::start(&tool("tmux"), &tmux.arguments(&["new-session", "-s", "carom", &command]), SIZE);
     screen.wait_for("first frame", is_frame);
     let shown = tmux.tell(&["capture-pane", "-p", "-t", "carom"]);
     let rendered = Command::new(CAROM).args(["render", "paper-1"]).output().expect("the built binary");
@@ -155,7 +161,7 @@ fn a_killed_tmux_leaves_no_process_behind() {
     let tmux = Tmux::new();
     let note = tmux.folder.path().join("pid");
     let command = format!("echo $$ > {}; exec {CAROM} paper-1 --paused", note.display());
-    let mut screen = Screen::start(&tool("tmux"), &tmux.arguments(&["new-session", "-s", "carom", &command]));
+    let mut screen = Screen::start(&tool("tmux"), &tmux.arguments(&["new-session", "-s", "carom", &command]), SIZE);
     screen.wait_for("first frame", is_frame);
     let process = process(&fs::read_to_string(note).expect("its number"));
     tmux.tell(&["kill-server"]);

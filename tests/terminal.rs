@@ -2,6 +2,8 @@
 
 #[path = "terminal/input.rs"]
 mod input;
+#[path = "terminal/pacing.rs"]
+mod pacing;
 #[allow(dead_code)] // each test crate uses what it needs
 #[path = "support/pty.rs"]
 mod pty;

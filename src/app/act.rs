@@ -258,6 +258,10 @@ impl State {
                 self.head_for(Command::Goto(t), true);
                 self.say("On the way to the first frame that ends then or later; Esc stops.");
             }
+            Ok(Some(Order::Hash)) => {
+                let snapshot = &self.report.snapshot;
+                self.say(format!("t={:?} hash={:016x}", snapshot.t, snapshot.hash()));
+            }
             #[cfg(debug_assertions)]
             Ok(Some(Order::Panic { simulation: true })) => self.worker.send(Command::Panic),
             #[cfg(debug_assertions)]

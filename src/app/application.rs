@@ -58,6 +58,11 @@ impl App {
         &self.state.report
     }
 
+    /// Whether the run has been told something that its latest report does not show yet.
+    pub fn awaits_report(&self) -> bool {
+        self.state.report.obeyed < self.state.worker.sent()
+    }
+
     /// Whether the run has obeyed every key so far and waits for the next, and the exact run beside it likewise.
     pub fn settled(&self) -> bool {
         let compared = |comparison: &Comparison| comparison.is_settled(self.state.report.snapshot.t);

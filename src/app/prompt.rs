@@ -11,6 +11,8 @@ pub(super) enum Order {
     Speed(f64),
     /// Time to go to, s, ≥ 0.
     Goto(f64),
+    /// Say the time and the hash of the state shown, as the closing line of `carom run` does.
+    Hash,
     /// Panic, so that a test can see what a user would; not in the release program.
     #[cfg(debug_assertions)]
     #[doc(hidden)]
@@ -42,6 +44,9 @@ const WORDS: &[Word] = &[
     Word { name: "goto", rule: "seconds, 0 or more", example: "3.25", allows: |v| v >= 0.0, order: Order::Goto },
 ];
 
+/// The word that takes no value.
+const HASH: &str = "hash";
+
 /// Reads the text after the colon; `None` if there is none.
 ///
 /// # Errors
@@ -53,8 +58,14 @@ pub(super) fn read(text: &str) -> Result<Option<Order>, String> {
     if name == "panic" {
         return Ok(Some(Order::Panic { simulation: parts.next().is_some() }));
     }
+    if name == HASH {
+        return match parts.next() {
+            None => Ok(Some(Order::Hash)),
+            Some(_) => Err(format!(":{HASH} takes no value: it tells the hash of the state shown.")),
+        };
+    }
     let Some(word) = WORDS.iter().find(|word| word.name == name) else {
-        let known: Vec<&str> = WORDS.iter().map(|word| word.name).collect();
+        let known: Vec<&str> = WORDS.iter().map(|word| word.name).chain([HASH]).collect();
         return Err(format!("There is no :{name}; there are {}.", known.join(", ")));
     };
     let value = parts.collect::<Vec<_>>().join(" ");
@@ -77,12 +88,14 @@ mod tests {
         assert_eq!(read(" tolerance  0 "), Ok(Some(Order::Tolerance(0.0))));
         assert_eq!(read("speed .1"), Ok(Some(Order::Speed(0.1))));
         assert_eq!(read("goto 3.25"), Ok(Some(Order::Goto(3.25))));
+        assert_eq!(read("hash"), Ok(Some(Order::Hash)));
         assert_eq!(read("  "), Ok(None));
     }
 
     #[test]
     fn an_error_names_the_value_and_what_is_allowed() {
-        assert_eq!(read("dtt 1"), Err("There is no :dtt; there are dt, tolerance, speed, goto.".into()));
+        assert_eq!(read("dtt 1"), Err("There is no :dtt; there are dt, tolerance, speed, goto, hash.".into()));
+        assert_eq!(read("hash 1"), Err(":hash takes no value: it tells the hash of the state shown.".into()));
         assert_eq!(read("dt"), Err(":dt needs a number (seconds above 0), as in :dt 1e-3.".into()));
         for bad in ["0", "-1", "nan", "inf", "1 2", "1e-3s"] {
             let said = read(&format!("dt {bad}"));

@@ -65,6 +65,9 @@ pub(super) struct Play {
     pub(super) paused: bool,
     #[command(flatten)]
     pub(super) display: Display,
+    /// Most bytes per second to the terminal, k for thousands, M for millions: for lines that are shared or dear
+    #[arg(long, value_name = "B", value_parser = numbers::bandwidth)]
+    pub(super) bandwidth: Option<u64>,
     /// Tell the run in lines, one per event, without a screen
     #[arg(long)]
     pub(super) text: bool,

@@ -44,6 +44,7 @@ fn show(arguments: &Play, opened: Opened) -> Result<(), Failure> {
         paused: arguments.paused,
         marker: arguments.display.marker.map(Into::into),
         color: arguments.display.color.depth(),
+        bandwidth: arguments.bandwidth,
     };
     match terminal::run(options) {
         Ok(Outcome::Quit) => Ok(()),

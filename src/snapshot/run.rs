@@ -66,4 +66,9 @@ impl Snapshot {
             alarm: Alarm::default(),
         }
     }
+
+    /// The hash of t, x and v ([`State::hash`]): equal hashes mean equal bits.
+    pub fn hash(&self) -> u64 {
+        State { t: self.t, x: self.x.clone(), v: self.v.clone() }.hash()
+    }
 }

@@ -1,15 +1,24 @@
-//! Keys that came and have not been obeyed yet: a bounded number, and Ctrl-C before all of them.
+//! Keys that came and have not been obeyed yet, and replies: a bounded number, and Ctrl-C before all of them.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, AtomicUsize, Ordering},
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+    time::Instant,
 };
 
-use super::event::{Event, Post};
+use super::{
+    event::{Event, Post},
+    reply::Reply,
+};
 use crate::app::{Input, Key};
 
 /// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
+
+/// Most replies that wait; as many are never asked for.
+const MOST_REPLIES: usize = 64;
 
 /// What both ends share.
 #[derive(Default)]
@@ -17,6 +26,7 @@ struct Shared {
     waiting: AtomicUsize,
     left_out: AtomicUsize,
     interrupted: AtomicBool,
+    replies: Mutex<Vec<(Reply, Instant)>>,
 }
 
 /// The end of the thread that reads the terminal.
@@ -49,6 +59,17 @@ impl Entrance {
         }
     }
 
+    /// Takes in a reply that came just now, or leaves it out if too many wait.
+    pub(super) fn replied(&self, reply: Reply) {
+        let mut replies = self.shared.replies.lock().unwrap_or_else(PoisonError::into_inner);
+        if replies.len() < MOST_REPLIES {
+            replies.push((reply, Instant::now()));
+        }
+        if replies.len() == 1 {
+            self.post.send(Event::Replied);
+        }
+    }
+
     /// The way to the thread that obeys.
     pub(super) fn post(&self) -> &Post {
         &self.post
@@ -59,6 +80,11 @@ impl Backlog {
     /// Whether Ctrl-C was pressed since this was last asked: to ask before each event, whatever it is.
     pub(super) fn interrupted(&self) -> bool {
         self.0.interrupted.swap(false, Ordering::AcqRel)
+    }
+
+    /// The replies that came since this was last asked, each with its moment.
+    pub(super) fn replies(&self) -> Vec<(Reply, Instant)> {
+        std::mem::take(&mut *self.0.replies.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// An input has been obeyed. When that was the last one: how many were left out since there was none before.
@@ -96,5 +122,19 @@ mod tests {
         entrance.take(Input::Key(Key::char('?')));
         assert!(matches!(events.try_recv(), Ok(Event::Typed(_))), "there is room again");
         assert_eq!(backlog.obeyed(), 0);
+    }
+
+    #[test]
+    fn a_million_replies_are_bounded_and_told_of_once() {
+        let (sender, events) = mpsc::channel();
+        let (entrance, backlog) = backlog(Post(sender));
+        for round in 0..2 {
+            for _ in 0..1_000_000 {
+                entrance.replied(Reply::Attributes);
+            }
+            assert_eq!(events.try_iter().count(), 1, "round {round}");
+            assert_eq!(backlog.replies().len(), MOST_REPLIES);
+            assert_eq!(backlog.replies(), []);
+        }
     }
 }

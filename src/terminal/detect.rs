@@ -10,6 +10,7 @@ pub(super) struct Environment {
     color_term: Option<String>,
     term: Option<String>,
     ssh: bool,
+    multiplexed: bool,
     columns: Option<u16>,
     lines: Option<u16>,
 }
@@ -25,6 +26,8 @@ impl Environment {
             color_term: set("COLORTERM"),
             term: set("TERM"),
             ssh: set("SSH_CONNECTION").is_some(),
+            // The last is mosh-server's fingerprint: it sets nothing else.
+            multiplexed: ["TMUX", "STY", "NCURSES_NO_UTF8_ACS"].into_iter().any(|name| set(name).is_some()),
             columns: count("COLUMNS"),
             lines: count("LINES"),
         }
@@ -67,6 +70,12 @@ impl Environment {
         (known(columns, self.columns, 80), known(rows, self.lines, 24))
     }
 
+    /// Whether a program (tmux, screen, mosh) stands between, which answers for the terminal behind it at once, however far
+    /// that is. What runs on the near side of the network (its TERM alone tells) answers as late as the terminal does.
+    pub(super) fn multiplexed(&self) -> bool {
+        self.multiplexed
+    }
+
     /// Whether a network lies between us and the screen.
     pub(super) fn remote(&self) -> bool {
         self.ssh
@@ -104,6 +113,18 @@ mod tests {
         assert_eq!(colors(&[("NO_COLOR", "1"), ("COLORTERM", "24bit")]), Colors::Never);
         assert_eq!(colors(&[("NO_COLOR", ""), ("COLORTERM", "24bit")]), Colors::Rgb, "empty is unset");
         assert_eq!(with(&[("NO_COLOR", "1")]).colors(Some(Colors::Rgb)), Colors::Rgb);
+    }
+
+    #[test]
+    fn programs_that_answer_for_the_terminal_are_known_by_their_variables() {
+        assert!(
+            !with(&[("TERM", "screen-256color"), ("SSH_CONNECTION", "::1 1 ::1 2")]).multiplexed(),
+            "on the near side"
+        );
+        for name in ["TMUX", "STY", "NCURSES_NO_UTF8_ACS"] {
+            assert!(with(&[(name, "1")]).multiplexed(), "{name}");
+            assert!(!with(&[(name, "")]).multiplexed(), "{name}");
+        }
     }
 
     #[test]

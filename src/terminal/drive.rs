@@ -20,7 +20,8 @@ use super::{
     event::{Event, Post},
     input,
     outcome::{Error, Options, Outcome},
-    pacer::{Next, Pacer},
+    pacer::{Next, Pacer, Return},
+    reply::{REQUEST, Reply},
     session::{Guard, Session},
     signals,
     writer::Writer,
@@ -30,10 +31,19 @@ use crate::{
     frame::Encoder,
 };
 
-/// How a terminal is treated near by and across a network: pictures per second, and how long the rest of an escape
-/// sequence may take.
-const NEAR: (u32, Duration) = (30, Duration::from_millis(25));
-const REMOTE: (u32, Duration) = (20, Duration::from_millis(100));
+/// Most pictures per second of a running run.
+const RATE: u32 = 30;
+
+/// Behind a program that answers for the terminal nothing tells how thin the line to it is: most pictures and bytes per
+/// second there, as many as 256 kbit/s carry.
+const MULTIPLEXED: (u32, u64) = (10, 32_000);
+
+/// How long the rest of an escape sequence may take near by, and across a network.
+const NEAR: Duration = Duration::from_millis(25);
+const REMOTE: Duration = Duration::from_millis(100);
+
+/// Longest wait at the end for answers that only our terminal's next reader would get, if it is no shell.
+const LEAVE: Duration = Duration::from_millis(100);
 
 /// A long backlog of events is obeyed in turns of this length, with a picture after each where one is due.
 const TURN: Duration = Duration::from_millis(50);
@@ -50,7 +60,9 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
         return Err(Error::NoTerminal);
     }
     let environment = Environment::ours();
-    let (rate, escape_time) = if environment.remote() { REMOTE } else { NEAR };
+    let escape_time = if environment.remote() { REMOTE } else { NEAR };
+    let (rate, budget) = if environment.multiplexed() { (MULTIPLEXED.0, Some(MULTIPLEXED.1)) } else { (RATE, None) };
+    let pacer = Pacer::new(rate, options.bandwidth.or(budget));
     let setup = Setup {
         opened: options.opened,
         settings: options.settings,
@@ -68,7 +80,6 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let writer = Writer::start(Arc::clone(guard.session()), post.clone())?;
     let (entrance, backlog) = backlog(post);
     input::start(escape_time, entrance)?;
-    let pacer = Pacer::new(rate);
     let (encoder, clock) = (Encoder::new(), Instant::now());
     Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock }.run()
 }
@@ -91,11 +102,26 @@ type Step = Result<Option<Outcome>, Error>;
 
 impl Driver {
     fn run(mut self) -> Result<Outcome, Error> {
+        let outcome = self.until_the_end();
+        match outcome {
+            Ok(Outcome::Quit) => self.leave(!signals::somebody_could_continue_us())?,
+            Ok(Outcome::Signal(number)) if number != SIGHUP => self.leave(true)?,
+            _ => {}
+        }
+        outcome
+    }
+
+    fn until_the_end(&mut self) -> Result<Outcome, Error> {
         self.pacer.urgent(Duration::ZERO);
         loop {
             let event = match self.pacer.next(self.clock.elapsed()) {
                 Next::Draw => {
                     self.draw();
+                    continue;
+                }
+                Next::Probe => {
+                    self.pacer.probing(self.clock.elapsed());
+                    self.writer.send(REQUEST.to_vec(), self.guard.session().takes());
                     continue;
                 }
                 Next::Rest => self.events.recv().ok(),
@@ -104,7 +130,7 @@ impl Driver {
                     event => event.ok(),
                 },
             };
-            // Everything that has arrived counts before the next picture, unless it takes long.
+            // All that has arrived counts before the next picture, unless it takes long.
             let deadline = self.clock.elapsed() + TURN;
             let mut next = event;
             while let Some(event) = next {
@@ -124,7 +150,7 @@ impl Driver {
         }
         match event {
             Event::Typed(input) => {
-                let step = self.handle(input);
+                let step = self.typed(input);
                 let left_out = self.backlog.obeyed();
                 if left_out > 0 {
                     self.app.say(format!("{left_out} keys came faster than they could be obeyed, and were left out."));
@@ -132,6 +158,7 @@ impl Driver {
                 return step;
             }
             Event::News => return self.handle(Input::News),
+            Event::Replied => self.replied(),
             Event::Interrupted => {}
             Event::Sent => self.pacer.sent(),
             Event::Resized => self.pacer.resized(self.clock.elapsed()),
@@ -141,17 +168,84 @@ impl Driver {
                 if self.guard.session().take().is_err() {
                     return Ok(Some(Outcome::Signal(SIGHUP)));
                 }
+                self.pacer.forget_requests();
                 self.repaint();
             }
             Event::End(signal) => return Ok(Some(Outcome::Signal(signal))),
             Event::Gone => return Ok(Some(Outcome::Signal(SIGHUP))),
-            Event::Panicked(said) => return Err(Error::Panic(said.lines().collect::<Vec<_>>().join(" "))),
+            Event::Panicked(said) => return Err(panicked(&said)),
         }
         Ok(None)
     }
 
+    /// Obeys a key or a paste. Where the simulation has been told something, its answer is worth a moment.
+    fn typed(&mut self, input: Input) -> Step {
+        let effect = self.app.handle(input);
+        if effect != Effect::DrawNow {
+            return self.heed(effect);
+        }
+        self.pacer.pressed(self.clock.elapsed(), self.app.awaits_report());
+        Ok(None)
+    }
+
     fn handle(&mut self, input: Input) -> Step {
-        match self.app.handle(input) {
+        let effect = self.app.handle(input);
+        self.heed(effect)
+    }
+
+    fn replied(&mut self) {
+        for (reply, at) in self.backlog.replies() {
+            match reply {
+                Reply::Attributes => {
+                    if let Some(Return { silence, skipped }) = self.pacer.replied(at.duration_since(self.clock)) {
+                        let seconds = silence.as_secs_f64();
+                        let pictures = if skipped == 1 { "frame was" } else { "frames were" };
+                        self.app.say(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
+                        self.pacer.urgent(self.clock.elapsed());
+                    }
+                }
+            }
+        }
+    }
+
+    /// Leaves the screen, and waits for answers under way: the next reader of the terminal would take them for keys. Only
+    /// for a moment if that is no shell (`briefly`).
+    ///
+    /// # Errors
+    /// If a thread panics meanwhile.
+    fn leave(&mut self, briefly: bool) -> Result<(), Error> {
+        self.guard.session().leave_screen();
+        let begin = self.clock.elapsed();
+        while let Some(patience) = self.pacer.answers_within() {
+            let end = begin + if briefly { LEAVE } else { patience };
+            match self.events.recv_timeout(end.saturating_sub(self.clock.elapsed())) {
+                Ok(Event::Replied) => self.count_replies(),
+                // After a suspension the loop goes on, and must have missed nothing.
+                Ok(Event::Sent) => self.pacer.sent(),
+                Ok(Event::Resized) => self.pacer.resized(self.clock.elapsed()),
+                Ok(Event::News) => {
+                    let _ = self.app.handle(Input::News);
+                }
+                Ok(Event::Typed(_)) => {
+                    let _ = self.backlog.obeyed();
+                }
+                Ok(Event::Interrupted | Event::Suspend | Event::Continued) => {}
+                Ok(Event::Panicked(said)) => return Err(panicked(&said)),
+                Ok(Event::Gone | Event::End(_)) | Err(_) => break,
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes note of replies of which nothing will be said.
+    fn count_replies(&mut self) {
+        for (_, at) in self.backlog.replies() {
+            let _ = self.pacer.replied(at.duration_since(self.clock));
+        }
+    }
+
+    fn heed(&mut self, effect: Effect) -> Step {
+        match effect {
             Effect::Nothing => {}
             Effect::Draw => self.pacer.changed(self.clock.elapsed()),
             Effect::DrawNow => self.pacer.urgent(self.clock.elapsed()),
@@ -170,6 +264,7 @@ impl Driver {
             self.repaint();
             return Ok(());
         }
+        self.leave(false)?;
         self.guard.session().give_back();
         // Continuing sends a signal of its own, which takes the terminal again.
         signals::stop().map_err(Error::Io)
@@ -188,8 +283,15 @@ impl Driver {
         self.app.draw(&mut buffer);
         let picture = self.encoder.encode(&buffer, self.app.cursor());
         if !picture.is_empty() {
-            self.pacer.sending();
-            self.writer.send(picture, takes);
+            let now = self.clock.elapsed();
+            let asks = self.pacer.sending(now, picture.len() + REQUEST.len());
+            let bytes = if asks { [&picture, REQUEST].concat() } else { picture };
+            self.writer.send(bytes, takes);
         }
     }
+}
+
+/// The text of a panic on one line.
+fn panicked(said: &str) -> Error {
+    Error::Panic(said.lines().collect::<Vec<_>>().join(" "))
 }

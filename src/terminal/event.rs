@@ -11,10 +11,12 @@ pub(super) enum Event {
     Typed(Input),
     /// Ctrl-C was pressed; see [`Backlog::interrupted`](super::backlog::Backlog::interrupted).
     Interrupted,
+    /// The terminal has answered; see [`Backlog::replies`](super::backlog::Backlog::replies).
+    Replied,
     /// The application's worker has news.
     News,
     Resized,
-    /// The terminal has taken the last picture.
+    /// The system has taken the last picture.
     Sent,
     Suspend,
     Continued,

@@ -43,6 +43,9 @@ fn read(tty: &File, mut decoder: Decoder, entrance: &Entrance) {
             Err(Errno::INTR) => {}
             _ => return, // hung up
         }
+        for reply in decoder.replies.drain(..) {
+            entrance.replied(reply); // first: a key may be obeyed better when they are known
+        }
         for input in decoder.inputs.drain(..) {
             entrance.take(input);
         }

@@ -8,21 +8,25 @@
 //! |---|---|
 //! | `outcome` | what to run, and how that can end |
 //! | `drive` | the loop: inputs, signals and news in, pictures out |
-//! | `event`, `backlog` | what the threads tell the one that draws; typed keys that wait |
-//! | `input`, `decoder`, `sequence`, `paste` | bytes from the terminal as keys and pasted text |
+//! | `event`, `backlog` | what the threads tell the one that draws; typed keys and replies that wait |
+//! | `input`, `decoder`, `sequence`, `paste`, `reply` | bytes from the terminal as keys, pasted text and replies |
 //! | `session`, `signals` | the terminal's modes, put back whatever happens; signals as events |
 //! | `writer`, `pacer` | pictures to the terminal, and when the next is due |
+//! | `line`, `budget` | how many pictures may be under way, and how many bytes per second |
 //! | `detect` | what the environment says of colours and characters |
 
 mod backlog;
+mod budget;
 mod decoder;
 mod detect;
 mod drive;
 mod event;
 mod input;
+mod line;
 mod outcome;
 mod pacer;
 mod paste;
+mod reply;
 mod sequence;
 mod session;
 mod signals;

@@ -23,6 +23,8 @@ pub struct Options {
     pub marker: Option<Marker>,
     /// Depth of colour; `None`: as the environment says.
     pub color: Option<Colors>,
+    /// Most bytes per second to the terminal; `None`: as many as it takes.
+    pub bandwidth: Option<u64>,
 }
 
 /// How the application ended, with the terminal as it was before.

@@ -1,23 +1,39 @@
-//! When the next picture is drawn: only if something changed, only if the last one has been sent, and not too often.
+//! When the next picture is drawn: only if something changed, only if the line has room for it, and not too often.
 //! Moments are given as times since any fixed start.
 
 use std::time::Duration;
 
+use super::{budget::Budget, line::Line};
+
 /// A window that is being dragged settles for this long before it is drawn again.
 const SETTLE: Duration = Duration::from_millis(30);
 
-/// A window that never settles is drawn this often.
-const UNSETTLED: Duration = Duration::from_millis(250);
+/// A window that never settles is drawn this often: each time it is a whole picture, and a drag has many sizes.
+const UNSETTLED: Duration = Duration::from_millis(600);
+
+/// The simulation's answer to a key is awaited for this long before a picture without it is drawn.
+const ANSWER: Duration = Duration::from_millis(30);
 
 /// What to do now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Next {
     /// Draw.
     Draw,
+    /// Send a request alone.
+    Probe,
     /// Nothing until then, unless something happens.
     Wait(Duration),
     /// Nothing until something happens.
     Rest,
+}
+
+/// A line that was silent and is no more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Return {
+    /// How long it was silent.
+    pub(super) silence: Duration,
+    /// Pictures that would have been shown meanwhile.
+    pub(super) skipped: u128,
 }
 
 /// Keeps the rhythm.
@@ -27,54 +43,118 @@ pub(super) struct Pacer {
     interval: Duration,
     /// Whether the picture on the screen is old, and if so, from when on a new one may be drawn.
     dirty: Option<Duration>,
+    /// Whether the user waits for a picture, and if so, from when on it may be drawn.
+    urgent: Option<Duration>,
     last: Option<Duration>,
     sending: bool,
     /// First and last change of size not yet drawn.
     resized: Option<(Duration, Duration)>,
+    /// Last change of size.
+    size_since: Option<Duration>,
+    line: Line,
+    budget: Budget,
 }
 
 impl Pacer {
-    /// At most `rate` pictures per second.
-    pub(super) fn new(rate: u32) -> Pacer {
-        Pacer { interval: Duration::from_secs(1) / rate, dirty: None, last: None, sending: false, resized: None }
+    /// At most `rate` pictures and, if there is a cap, `bytes` per second.
+    pub(super) fn new(rate: u32, bytes: Option<u64>) -> Pacer {
+        Pacer {
+            interval: Duration::from_secs(1) / rate,
+            dirty: None,
+            urgent: None,
+            last: None,
+            sending: false,
+            resized: None,
+            size_since: None,
+            line: Line::new(),
+            budget: Budget::new(bytes),
+        }
+    }
+
+    fn interval(&self) -> Duration {
+        self.interval.max(self.line.interval())
     }
 
     /// Something changed; it will be shown in its turn.
     pub(super) fn changed(&mut self, now: Duration) {
-        let turn = self.last.map_or(now, |last| last + self.interval);
+        let turn = self.last.map_or(now, |last| last + self.interval()).max(now);
         self.dirty = Some(self.dirty.map_or(turn, |due| due.min(turn)));
     }
 
     /// Something changed that the user waits for.
     pub(super) fn urgent(&mut self, now: Duration) {
-        self.dirty = Some(now);
+        self.changed(now);
+        self.urgent = Some(self.urgent.map_or(now, |due| due.min(now)));
+    }
+
+    /// A key was pressed; `asked`: the simulation has been told, and what it makes of it will come soon.
+    pub(super) fn pressed(&mut self, now: Duration, asked: bool) {
+        self.line.pressed(now);
+        self.urgent(if asked { now + ANSWER } else { now });
     }
 
     /// The size changed.
     pub(super) fn resized(&mut self, now: Duration) {
         let first = self.resized.map_or(now, |(first, _)| first);
         self.resized = Some((first, now));
+        self.size_since = Some(now);
     }
 
-    /// A picture goes to the terminal.
+    /// A picture has been drawn.
     pub(super) fn drawn(&mut self, now: Duration) {
-        (self.dirty, self.resized, self.last) = (None, None, Some(now));
+        (self.dirty, self.urgent, self.resized, self.last) = (None, None, None, Some(now));
     }
 
-    /// A picture is on its way.
-    pub(super) fn sending(&mut self) {
+    /// A picture of so many bytes goes out; whether a request should follow it.
+    pub(super) fn sending(&mut self, now: Duration, bytes: usize) -> bool {
         self.sending = true;
+        self.budget.spend(bytes, now);
+        self.line.sending(now, bytes)
     }
 
-    /// The terminal has taken the last picture.
+    /// A request goes out alone.
+    pub(super) fn probing(&mut self, now: Duration) {
+        self.sending = true;
+        self.line.probing(now);
+    }
+
+    /// The system has taken what was sent last.
     pub(super) fn sent(&mut self) {
         self.sending = false;
     }
 
-    pub(super) fn next(&self, now: Duration) -> Next {
+    /// The terminal has answered a request.
+    pub(super) fn replied(&mut self, now: Duration) -> Option<Return> {
+        let silence = self.line.replied(now)?;
+        let waited = self.dirty.map_or(Duration::ZERO, |due| now.saturating_sub(due));
+        Some(Return { silence, skipped: waited.as_nanos() / self.interval().as_nanos().max(1) })
+    }
+
+    /// Somebody else has read the terminal.
+    pub(super) fn forget_requests(&mut self) {
+        self.line.forget();
+    }
+
+    /// How long answers under way are worth waiting for; `None`: there are none.
+    pub(super) fn answers_within(&self) -> Option<Duration> {
+        self.line.answers_within()
+    }
+
+    pub(super) fn next(&mut self, now: Duration) -> Next {
+        self.line.tick(now);
         let settled = self.resized.map(|(first, last)| (last + SETTLE).min(first + UNSETTLED));
-        let Some(due) = settled.or(self.dirty).filter(|_| !self.sending) else { return Next::Rest };
-        match due.saturating_sub(now) {
+        // Between two sizes of a drag a picture of the run would be of no more use than one of a size.
+        let calm = self.size_since.map_or(Duration::ZERO, |since| since + SETTLE);
+        let changed = self.dirty.map(|due| due.max(calm));
+        let Some(due) = settled.or(self.urgent).or(changed).filter(|_| !self.sending) else { return Next::Rest };
+        let urgent = settled.or(self.urgent).is_some();
+        if !urgent && self.line.wants_probe(now) {
+            return Next::Probe;
+        }
+        if !self.line.has_room(urgent) {
+            return self.line.gives_up_at().map_or(Next::Rest, |at| Next::Wait(at.saturating_sub(now)));
+        }
+        match due.max(self.budget.allows_from(urgent)).saturating_sub(now) {
             Duration::ZERO => Next::Draw,
             wait => Next::Wait(wait),
         }
@@ -82,55 +162,4 @@ impl Pacer {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const MS: Duration = Duration::from_millis(1);
-    const START: Duration = Duration::from_secs(7);
-
-    #[test]
-    fn a_paused_run_rests() {
-        let mut pacer = Pacer::new(30);
-        assert_eq!(pacer.next(START), Next::Rest);
-        pacer.urgent(START);
-        assert_eq!(pacer.next(START), Next::Draw);
-        pacer.drawn(START);
-        assert_eq!(pacer.next(START + 1000 * MS), Next::Rest);
-    }
-
-    #[test]
-    fn news_waits_for_its_turn_and_keys_do_not() {
-        let mut pacer = Pacer::new(20);
-        pacer.drawn(START);
-        pacer.changed(START + 10 * MS);
-        pacer.changed(START + 30 * MS);
-        assert_eq!(pacer.next(START + 30 * MS), Next::Wait(20 * MS));
-        pacer.urgent(START + 31 * MS);
-        assert_eq!(pacer.next(START + 31 * MS), Next::Draw);
-    }
-
-    #[test]
-    fn nothing_is_drawn_while_the_terminal_has_not_taken_the_last_picture() {
-        let mut pacer = Pacer::new(30);
-        pacer.sending();
-        pacer.urgent(START);
-        assert_eq!(pacer.next(START + 1000 * MS), Next::Rest);
-        pacer.sent();
-        assert_eq!(pacer.next(START + 1000 * MS), Next::Draw);
-    }
-
-    #[test]
-    fn a_dragged_window_is_drawn_when_it_settles_or_four_times_a_second() {
-        let mut pacer = Pacer::new(30);
-        for ms in (0..=200).step_by(20) {
-            pacer.resized(START + ms * MS);
-            pacer.urgent(START + ms * MS);
-        }
-        assert_eq!(pacer.next(START + 200 * MS), Next::Wait(30 * MS));
-        for ms in (220..=240).step_by(20) {
-            pacer.resized(START + ms * MS);
-        }
-        assert_eq!(pacer.next(START + 240 * MS), Next::Wait(10 * MS));
-        assert_eq!(pacer.next(START + 250 * MS), Next::Draw);
-    }
-}
+mod tests;

@@ -47,6 +47,8 @@ pub(super) struct Session {
     screen: Mutex<Screen>,
     /// Whether the terminal is ours. Once it is not, nothing is written any more.
     ours: AtomicBool,
+    /// Whether it is in raw mode, so that nothing is echoed.
+    raw: AtomicBool,
     /// How often it was taken: what was drawn before the last time is for a screen that is no more.
     takes: AtomicU64,
     /// Set where the signal arrives that continues a stopped process: until the terminal is taken again, it is in an
@@ -80,6 +82,7 @@ impl Session {
         let session = Arc::new(Session {
             screen: Mutex::new(Screen::open(stdout)?),
             ours: AtomicBool::new(false),
+            raw: AtomicBool::new(false),
             takes: AtomicU64::new(0),
             continued: Arc::new(AtomicBool::new(false)),
         });
@@ -104,6 +107,7 @@ impl Session {
         // The mode remembered by crossterm may be older than what a shell has set since.
         terminal::disable_raw_mode()?;
         terminal::enable_raw_mode()?;
+        self.raw.store(true, Ordering::Release);
         let screen = self.lock();
         self.continued.store(false, Ordering::Release);
         self.takes.fetch_add(1, Ordering::AcqRel);
@@ -126,6 +130,15 @@ impl Session {
 
     /// Undoes [`Session::take`]; does nothing if that is done already. Never waits long, whatever the terminal does.
     pub(super) fn give_back(&self) {
+        self.leave_screen();
+        if self.raw.swap(false, Ordering::AcqRel) {
+            let _ = terminal::disable_raw_mode(); // fails only on a terminal that is gone
+        }
+    }
+
+    /// Shows what was on the screen before; what the terminal sends is still not echoed. The first half of
+    /// [`Session::give_back`].
+    pub(super) fn leave_screen(&self) {
         if !self.ours.swap(false, Ordering::AcqRel) {
             return;
         }
@@ -137,7 +150,6 @@ impl Session {
             let _ = tcflush(&screen.file, QueueSelector::OFlush);
             let _ = screen.send(GOODBYE, || false);
         }
-        let _ = terminal::disable_raw_mode(); // fails only on a terminal that is gone
     }
 
     /// Writes all of a picture drawn when the terminal had been taken `takes` times, waiting for the terminal as long as

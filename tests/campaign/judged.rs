@@ -82,14 +82,13 @@ pub(crate) fn check(generator: &Generator, seed: u64, halves: u32, met: &mut Met
         .map_err(|failure| Failure { text: format!("seed {seed} at t = {}: {}", run.time(), failure.text), ..failure })
 }
 
-/// Whether a finding is of a kind that the engine, or the judge, is known not to master everywhere yet: it is counted, and
-/// fails only where `CAROM_CAMPAIGN_STRICT` is set. Collapsing chains and series that are summed up take energy and change
-/// velocities without a row for each impact; what rests moves by up to 1e-7 m/s; energy rises by rounding of a thousand
-/// impacts.
+/// Whether a finding is of a kind that the engine is known not to master everywhere yet: it is counted, and fails only where
+/// `CAROM_CAMPAIGN_STRICT` is set. An idle contact of a curved island that has opened slowly, and carries again, is held at
+/// the gap that it has come to, up to 1e-7 m; a sphere that meets one on a curve gets a velocity that is off by up to 1e-5 m/s.
 fn is_open(finding: &Finding) -> bool {
     match finding.fault {
-        Fault::Loss | Fault::Velocity | Fault::Momentum | Fault::Approach | Fault::RestSpeed => true,
-        Fault::Energy => finding.value <= 1000.0 * finding.bound,
+        Fault::RestGap => finding.value <= 1e-7,
+        Fault::Velocity | Fault::Approach => finding.value <= 1e-5,
         _ => false,
     }
 }

@@ -37,7 +37,8 @@ pub(crate) fn funnel_scene(seed: u64) -> Scene {
     scene(G, law, walls, spheres)
 }
 
-/// Spheres between two parallel walls, or in a tube of four, as wide as they are or nearly so.
+/// Spheres between two parallel walls, or in a tube of four, as wide as they are or nearly so. Where nothing is lost the gap
+/// is 1e-4 r at least, or none: across a narrower one the law itself has up to a billion impacts a second.
 pub(crate) fn tube_scene(seed: u64) -> Scene {
     let random = &mut Random(seed.wrapping_mul(0xd6e8_feb8_6659_fd93) ^ 0x0f0f_1e1e_2d2d_3c3c);
     let axes = Axes::pick(random);
@@ -47,6 +48,8 @@ pub(crate) fn tube_scene(seed: u64) -> Scene {
         1 => random.decade(-15.0, -9.0),
         _ => random.decade(-9.0, -1.0),
     };
+    let law = law(random);
+    let play = if law.wall_restitution == 1.0 && play < 1e-4 { 0.0 } else { play };
     let half = r * (1.0 + play);
     let plate = |n: DVec3, other: DVec3| wall(n * half, other * 4.0, axes.along * 20.0);
     let mut walls = vec![plate(axes.up, axes.across), plate(-axes.up, axes.across)];
@@ -67,8 +70,7 @@ pub(crate) fn tube_scene(seed: u64) -> Scene {
         let rattle = axes.up * random.pick(&[0.0, 0.0, 0.0, 1.0]) * random.between(-1.0, 1.0);
         spheres.push(Sphere { mass: random.pick(&[1.0, 1.0, 10.0]), ..sphere(x, slide + rattle, r) });
     }
-    let (law, gravity) = (law(random), pull(random));
-    scene(gravity, law, walls, spheres)
+    scene(pull(random), law, walls, spheres)
 }
 
 /// A stack, a row or a pyramid of equal spheres that touch, on the seams of a floor.

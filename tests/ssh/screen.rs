@@ -2,15 +2,19 @@
 
 use std::io::{Read, Write};
 use std::num::NonZero;
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use vt100::{Callbacks, Parser};
 
-/// Rows and columns.
-const SIZE: (NonZero<u16>, NonZero<u16>) = (NonZero::new(24).expect("not 0"), NonZero::new(80).expect("not 0"));
+/// Columns and rows.
+pub(crate) const SIZE: (u16, u16) = (80, 24);
+
+/// How a picture begins and ends.
+const BEGINS: &[u8] = b"\x1b[?2026h";
+const ENDS: &[u8] = b"\x1b[?2026l";
 
 /// Longest silence of a program that has something to show; reached only by a test that fails.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -18,6 +22,12 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// A terminal and the program that runs on it.
 pub(crate) struct Screen {
     parser: Parser<Answers>,
+    /// What came last: a mark may be torn.
+    tail: Vec<u8>,
+    /// Bytes, begun pictures and complete pictures that came.
+    pub(crate) bytes: usize,
+    pub(crate) begun: usize,
+    pub(crate) complete: usize,
     output: Receiver<Vec<u8>>,
     keyboard: Box<dyn Write + Send>,
     child: Box<dyn Child + Send + Sync>,
@@ -41,10 +51,9 @@ impl Callbacks for Answers {
 }
 
 impl Screen {
-    /// Starts a program on a new terminal.
-    pub(crate) fn start(program: &str, arguments: &[String]) -> Screen {
-        let (rows, cols) = SIZE;
-        let size = PtySize { rows: rows.get(), cols: cols.get(), pixel_width: 0, pixel_height: 0 };
+    /// Starts a program on a new terminal of so many columns and rows.
+    pub(crate) fn start(program: &str, arguments: &[String], (cols, rows): (u16, u16)) -> Screen {
+        let size = PtySize { rows, cols, ..PtySize::default() };
         let pair = native_pty_system().openpty(size).expect("a pseudo-terminal");
         let mut command = CommandBuilder::new(program);
         command.args(arguments);
@@ -53,8 +62,13 @@ impl Screen {
         let child = pair.slave.spawn_command(command).unwrap_or_else(|error| panic!("{program}: {error}"));
         drop(pair.slave);
         let reader = pair.master.try_clone_reader().expect("its output");
+        let cells = |count| NonZero::new(count).expect("a terminal has cells");
         Screen {
-            parser: Parser::new_with_callbacks(rows, cols, 0, Answers::default()),
+            parser: Parser::new_with_callbacks(cells(rows), cells(cols), 0, Answers::default()),
+            tail: Vec::new(),
+            bytes: 0,
+            begun: 0,
+            complete: 0,
             output: read(reader),
             keyboard: pair.master.take_writer().expect("its input"),
             child,
@@ -66,19 +80,45 @@ impl Screen {
     #[track_caller]
     pub(crate) fn wait_for(&mut self, what: &str, wanted: impl Fn(&str) -> bool) -> String {
         loop {
-            let shown = self.parser.screen().contents();
+            let shown = self.text();
             if wanted(&shown) {
                 return shown;
             }
-            let Ok(bytes) = self.output.recv_timeout(PATIENCE) else { panic!("no {what} came; shown was\n{shown}") };
-            self.show(&bytes);
+            assert_eq!(self.read(PATIENCE), Ok(()), "no {what} came; shown was\n{shown}");
         }
+    }
+
+    /// What is shown.
+    pub(crate) fn text(&self) -> String {
+        self.parser.screen().contents()
+    }
+
+    /// Shows what comes next.
+    ///
+    /// # Errors
+    /// If nothing comes within that time, or no more at all.
+    pub(crate) fn read(&mut self, within: Duration) -> Result<(), RecvTimeoutError> {
+        let bytes = self.output.recv_timeout(within)?;
+        self.show(&bytes);
+        Ok(())
     }
 
     fn show(&mut self, bytes: &[u8]) {
         self.parser.process(bytes);
+        self.bytes += bytes.len();
+        self.tail.extend(bytes);
+        let count = |mark: &[u8]| self.tail.windows(mark.len()).filter(|window| *window == mark).count();
+        self.begun += count(BEGINS);
+        self.complete += count(ENDS);
+        self.tail.drain(..self.tail.len().saturating_sub(BEGINS.len() - 1));
         let answers = std::mem::take(&mut self.parser.callbacks_mut().due);
         let _ = self.keyboard.write_all(&answers); // it may have ended meanwhile
+    }
+
+    /// Looks away: nothing is read for that long.
+    pub(crate) fn look_away(&self, time: Duration) {
+        let (_open, never) = mpsc::channel::<()>();
+        assert_eq!(never.recv_timeout(time), Err(RecvTimeoutError::Timeout));
     }
 
     /// Types.
@@ -91,10 +131,10 @@ impl Screen {
     #[track_caller]
     pub(crate) fn end(mut self) -> u32 {
         loop {
-            match self.output.recv_timeout(PATIENCE) {
-                Ok(bytes) => self.show(&bytes),
-                Err(mpsc::RecvTimeoutError::Disconnected) => break,
-                Err(mpsc::RecvTimeoutError::Timeout) => panic!("no end; shown is\n{}", self.parser.screen().contents()),
+            match self.read(PATIENCE) {
+                Ok(()) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+                Err(RecvTimeoutError::Timeout) => panic!("no end; shown is\n{}", self.text()),
             }
         }
         self.child.wait().expect("its end").exit_code()
@@ -109,7 +149,7 @@ impl Screen {
 
 /// The bytes of a terminal, as they come, until it closes.
 fn read(mut reader: Box<dyn Read + Send>) -> Receiver<Vec<u8>> {
-    let (send, output) = mpsc::sync_channel(256); // a program that writes without end waits for the test
+    let (send, output) = mpsc::sync_channel(0); // nothing is read ahead of the test
     thread::spawn(move || {
         let mut bytes = [0; 4096];
         while let Ok(length @ 1..) = reader.read(&mut bytes) {

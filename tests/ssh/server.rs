@@ -54,13 +54,18 @@ impl Server {
         Server { daemon, port, folder }
     }
 
-    /// The arguments with which ssh runs `command` there on a terminal of its own.
-    pub(crate) fn arguments(&self, command: &str) -> Vec<String> {
+    /// The port it listens on.
+    pub(crate) fn port(&self) -> u16 {
+        self.port
+    }
+
+    /// The arguments with which ssh runs `command` there on a terminal of its own, by that port of this machine.
+    pub(crate) fn arguments(&self, port: u16, command: &str) -> Vec<String> {
         let user = output(Command::new(tool("id")).arg("-un"));
         let key = self.folder.path().join("user").display().to_string();
         let fixed = ["-tt", "-F", "none", "-o", "StrictHostKeyChecking=no", "-o", "UserKnownHostsFile=/dev/null"];
         let more = ["-o", "LogLevel=ERROR", "-o", "IdentitiesOnly=yes", "-o", "BatchMode=yes", "-i", &key, "-p"];
-        let there = [&self.port.to_string(), "-l", user.trim(), "127.0.0.1", command];
+        let there = [&port.to_string(), "-l", user.trim(), "127.0.0.1", command];
         fixed.into_iter().chain(more).chain(there).map(String::from).collect()
     }
 

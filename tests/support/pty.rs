@@ -19,17 +19,25 @@ use crate::watch;
 /// Longest wait for anything that must happen: generous, because it only ends a test that has failed.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
 
+/// How the program asks the terminal what it is.
+const REQUEST: &[u8] = b"\x1b[c";
+
+/// How a picture begins.
+const BEGINS: &[u8] = b"\x1b[?2026h";
+
 /// What a test starts.
 pub(crate) struct Start<'a> {
     pub(crate) program: &'a str,
     pub(crate) arguments: &'a [&'a str],
     pub(crate) environment: &'a [(&'a str, &'a str)],
     pub(crate) size: (u16, u16),
+    /// Whether the terminal answers when it is asked what it is, as nearly all do.
+    pub(crate) answers: bool,
 }
 
 /// The program under test on a UTF-8 terminal of 80×24.
 pub(crate) fn carom<'a>(arguments: &'a [&'a str]) -> Start<'a> {
-    Start { program: env!("CARGO_BIN_EXE_carom"), arguments, environment: &[], size: (80, 24) }
+    Start { program: env!("CARGO_BIN_EXE_carom"), arguments, environment: &[], size: (80, 24), answers: true }
 }
 
 /// A program in a terminal.
@@ -39,11 +47,14 @@ pub(crate) struct Pty {
     slave: Box<dyn SlavePty + Send>,
     writer: Box<dyn Write + Send>,
     requests: Sender<()>,
-    answers: Receiver<Vec<u8>>,
+    pieces: Receiver<Vec<u8>>,
     asked: bool,
     exit: Receiver<u32>,
     pid: Pid,
     emulator: vt100::Parser,
+    /// Whether requests are answered, and how far the output has been searched for them.
+    pub(crate) answers: bool,
+    searched: usize,
     /// Kills it if a test goes on for ever, reading what it goes on writing.
     watch: watch::Watch,
     /// Everything the program has written.
@@ -73,18 +84,20 @@ impl Start<'_> {
         let (ended, exit) = mpsc::channel();
         thread::spawn(move || ended.send(child.wait().expect("it is our child").exit_code()));
         let reader = pair.master.try_clone_reader().expect("a terminal can be read");
-        let (requests, answers) = read_on_request(reader);
+        let (requests, pieces) = read_on_request(reader);
         Pty {
             writer: pair.master.take_writer().expect("a terminal can be written"),
             master: pair.master,
             slave: pair.slave,
             requests,
-            answers,
+            pieces,
             asked: false,
             exit,
             pid,
             emulator: vt100::Parser::new(at_least_one(rows), at_least_one(cols), 0),
             watch: watch::Watch::over(pid),
+            answers: self.answers,
+            searched: 0,
             output: Vec::new(),
         }
     }
@@ -116,13 +129,33 @@ impl Pty {
         if !self.asked {
             self.requests.send(()).expect("the reader lives");
         }
-        let answer = self.answers.recv_timeout(within);
+        let answer = self.pieces.recv_timeout(within);
         self.asked = answer == Err(RecvTimeoutError::Timeout);
         let bytes = answer.ok()?;
         self.output.extend(&bytes);
         assert!(self.output.len() as u64 <= watch::MOST, "it writes without end; the screen:\n{}", self.text());
         self.emulator.process(&bytes);
+        let asked = self.requests_since(self.searched.saturating_sub(REQUEST.len() - 1));
+        self.searched = self.output.len();
+        if self.answers {
+            self.answer(asked);
+        }
         Some(bytes)
+    }
+
+    /// How often the program has asked what the terminal is, after its first `from` bytes.
+    pub(crate) fn requests_since(&self, from: usize) -> usize {
+        self.output[from..].windows(REQUEST.len()).filter(|window| *window == REQUEST).count()
+    }
+
+    /// Answers so many requests.
+    pub(crate) fn answer(&mut self, count: usize) {
+        let _ = self.writer.write_all("\x1b[?62;22c".repeat(count).as_bytes()); // it may have ended meanwhile
+    }
+
+    /// Pictures in the output after its first `from` bytes.
+    pub(crate) fn pictures_since(&self, from: usize) -> usize {
+        self.output[from..].windows(BEGINS.len()).filter(|window| *window == BEGINS).count()
     }
 
     /// Reads on until the screen is as wanted.
@@ -216,8 +249,8 @@ impl Pty {
         while self.asked {
             drop(self.read(PATIENCE));
         }
-        let Pty { master, slave, writer, requests, answers, exit, watch: _watch, .. } = self;
-        drop((master, slave, writer, requests, answers));
+        let Pty { master, slave, writer, requests, pieces, exit, watch: _watch, .. } = self;
+        drop((master, slave, writer, requests, pieces));
         exit.recv_timeout(PATIENCE).expect("the program ends with its terminal")
     }
 

@@ -22,6 +22,13 @@ fn works_as_if_nothing_had_come(mut pty: Pty, noise: &str) {
     pty.assert_given_back();
 }
 
+/// A running program whose terminal sends nothing of its own: answers never come in the midst of a key.
+fn silent() -> Pty {
+    let mut pty = Start { answers: false, ..carom(&["paper-0"]) }.run();
+    pty.until_text("space pause");
+    pty
+}
+
 #[test]
 fn the_payload_of_strings_presses_no_keys() {
     for noise in
@@ -35,7 +42,7 @@ fn the_payload_of_strings_presses_no_keys() {
 
 #[test]
 fn a_string_that_comes_byte_by_byte_presses_no_keys_either() {
-    let mut pty = running();
+    let mut pty = silent();
     pty.send("\x1bP");
     for byte in ["q", "]", " ", "q", "\x1b", "\\"] {
         let before = time(pty.screen()).expect("a time is shown");
@@ -48,7 +55,7 @@ fn a_string_that_comes_byte_by_byte_presses_no_keys_either() {
 
 #[test]
 fn a_torn_arrow_never_changes_the_scene() {
-    let mut pty = running();
+    let mut pty = silent();
     for piece in ["\x1b", "[", "D"] {
         pty.send(piece);
         let before = time(pty.screen()).expect("a time is shown");

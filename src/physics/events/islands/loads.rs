@@ -6,6 +6,10 @@ use crate::physics::events::trajectories::Trajectories;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 
+/// Gap, in radii, from which on a contact that carries nothing is not told to rest: idle ones open up to 1e-6 of the
+/// accelerations before their island is solved again.
+const APART: f64 = 1e-10;
+
 impl Rests {
     /// A frame begins at `time`, s.
     pub(crate) fn begin_frame(&mut self, time: f64) {
@@ -36,11 +40,14 @@ impl Rests {
     /// given in the frame.
     pub(crate) fn list(&mut self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
         let met = log.contacts.len();
-        for (&key, held) in &self.held {
+        for (&key, held) in self.held.iter().filter(|(_, held)| held.announced) {
             let impulse = Load { since: held.load.since.max(self.frame_start), ..held.load }.given(end);
+            let shown = trajectories.contact_geometry(model, key, end);
+            // what has come apart since it carried anything is held for the solver's sake alone
+            let touches = held.load.force > 0.0 || shown.gap <= APART * shown.reach;
             let begun = |row: &Contact| row.class == Class::Rest && row.key() == key;
-            if held.announced && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
-                let row = trajectories.contact_geometry(model, key, end).row(end, Class::Rest, impulse, 0.0);
+            if touches && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
+                let row = shown.row(end, Class::Rest, impulse, 0.0);
                 log.contacts.push(Contact { approach_speed: 0.0, ..row });
             }
         }
