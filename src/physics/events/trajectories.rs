@@ -198,7 +198,7 @@ impl Trajectories {
 
     /// From now on the sphere at a slot, which shares what accelerates all, is on another trajectory: what others planned
     /// with it is stale.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn redirect(&mut self, slot: usize, line: Trajectory) {
         let record = &mut self.records[slot];
         if record.trajectory.t != line.t {
@@ -283,7 +283,7 @@ impl Trajectories {
     }
 
     /// Says so if what has just happened sends the sphere at a slot out of the range of numbers.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn check_range_at(&self, slot: usize) -> Result<(), Stall> {
         let line = &self.records[slot].trajectory;
         let cause = "a contact has sent it there; begin with smaller speeds, or change the method from here";
