@@ -36,8 +36,9 @@ const WIDEST: u32 = 4;
 const WIDEST_THIN: u32 = 2;
 const THIN: Duration = Duration::from_millis(5);
 
-/// So many pictures in a row tell how long a byte takes; the quickest counts, for a busy machine is no thin line.
-const SAMPLES: usize = 4;
+/// So many pictures in a row tell how long a byte takes; the quickest counts: a busy machine is no thin line, and what
+/// had to wait for other pictures tells nothing.
+const SAMPLES: usize = 8;
 
 /// Smaller pictures tell nothing about it, bytes.
 const TELLING: usize = 500;
@@ -57,8 +58,6 @@ struct Request {
     sent: Duration,
     /// Bytes of the picture before it; `None`: it went out alone.
     picture: Option<usize>,
-    /// Whether the line carried nothing when it was sent.
-    alone: bool,
 }
 
 /// The line to the terminal.
@@ -72,7 +71,7 @@ pub(super) struct Line {
     shortest: Option<Duration>,
     /// Last round trip that was no silence.
     usual: Duration,
-    /// Round trip and bytes of the last pictures that went out alone.
+    /// Round trip and bytes of the last pictures.
     samples: VecDeque<(Duration, usize)>,
     /// Bytes of the last picture.
     last: usize,
@@ -126,7 +125,7 @@ impl Line {
 
     fn ask(&mut self, now: Duration, picture: Option<usize>) {
         self.waiting.get_or_insert(now);
-        self.unanswered.push_back(Request { sent: now, picture, alone: self.unanswered.is_empty() });
+        self.unanswered.push_back(Request { sent: now, picture });
     }
 
     /// The oldest request has been answered; how long the line was silent before, if it was.
@@ -155,7 +154,7 @@ impl Line {
 
     /// Sets the window by the round trip of a request.
     fn measure(&mut self, request: Request, trip: Duration) {
-        if let Some(bytes) = request.picture.filter(|bytes| request.alone && *bytes >= TELLING) {
+        if let Some(bytes) = request.picture.filter(|bytes| *bytes >= TELLING) {
             self.samples.push_back((trip, bytes));
             if self.samples.len() > SAMPLES {
                 self.samples.pop_front();
