@@ -8,7 +8,11 @@ use glam::DVec3;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let slope = |up: f64| Wall {
-        shape: Parallelogram { center: DVec3::new(2.0 * up, 1.0, 0.0), s1: DVec3::new(4.0 * up, 2.0, 0.0), s2: DVec3::Z * 4.0 },
+        shape: Parallelogram {
+            center: DVec3::new(2.0 * up, 1.0, 0.0),
+            s1: DVec3::new(4.0 * up, 2.0, 0.0),
+            s2: DVec3::Z * 4.0,
+        },
         color: None,
     };
     let ball = Sphere {
@@ -25,7 +29,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = Simulation::new(&scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-6 });
     run.run_to(scene.duration, |_| Some(Simulation::SLICE));
     for contact in run.contacts().iter().filter(|contact| contact.class == Class::Rest) {
-        println!("{:?} carries {:.6} N s in a frame: {:?}", contact.key(), contact.impulse, run.rest_reason(contact.key()));
+        println!(
+            "{:?} carries {:.6} N s in a frame: {:?}",
+            contact.key(),
+            contact.impulse,
+            run.rest_reason(contact.key())
+        );
     }
     Ok(())
 }

@@ -50,14 +50,15 @@ fn in_units(scene: &Scene, length: f64, time: f64, off: f64) -> Scene {
     scaled.expect("a scene within the rules")
 }
 
-/// Rests that stop less than this (m/s, in the scene's own units) are told or not, or later, as rounding has it.
+/// Rests that stop less than this (m/s, in the scene's own units), and their ends, are told or not, or later, as rounding
+/// has it.
 const STOPPED: f64 = 1e-6;
 
 /// Whether a row tells of more than a stop at the level of rounding; `unit` of speed, m/s.
 fn matters(scene: &Scene, row: &Contact, unit: f64) -> bool {
     let change = |i: usize| row.impulse / scene.spheres[i].mass;
     let other = if row.kind == Kind::Pair { change(row.b) } else { 0.0 };
-    row.class != Class::Rest || change(row.a).max(other).max(row.approach_speed) > STOPPED * unit
+    row.class == Class::Collide || change(row.a).max(other).max(row.approach_speed.abs()) > STOPPED * unit
 }
 
 /// The events of a run until `t` (s) that matter in this unit of speed (m/s), and why it did not get there if it did not.

@@ -143,6 +143,12 @@ impl Pty {
         Some(bytes)
     }
 
+    /// Lets go of the output so far, but for what a request may have begun with.
+    pub(crate) fn forget_output(&mut self) {
+        self.output.drain(..self.output.len().saturating_sub(REQUEST.len() - 1));
+        self.searched = self.output.len();
+    }
+
     /// How often the program has asked what the terminal is, after its first `from` bytes.
     pub(crate) fn requests_since(&self, from: usize) -> usize {
         self.output[from..].windows(REQUEST.len()).filter(|window| *window == REQUEST).count()
