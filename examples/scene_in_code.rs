@@ -25,9 +25,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         name: Some("ball".into()),
     };
     let draft = Draft::new(vec![slope(1.0), slope(-1.0)], vec![ball]);
-    let scene = Draft { gravity: DVec3::NEG_Y * 9.8, duration: 10.0, ..draft }.validated()?;
+    let scene = Draft { gravity: DVec3::NEG_Y * 9.8, duration: 60.0, ..draft }.validated()?;
     let mut run = Simulation::new(&scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-6 });
     run.run_to(scene.duration, |_| Some(Simulation::SLICE));
+    println!("t = {} s: the ball is at {}, energy {:.3} J", run.time(), run.state().x[0], run.energy());
     for contact in run.contacts().iter().filter(|contact| contact.class == Class::Rest) {
         println!(
             "{:?} carries {:.6} N s in a frame: {:?}",
