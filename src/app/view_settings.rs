@@ -99,21 +99,9 @@ pub(super) fn select(settings: &mut ViewSettings, count: usize, forward: bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::{Colors, Marker};
 
     fn settings() -> ViewSettings {
-        ViewSettings {
-            views: Views::Both,
-            zoom: 1.0,
-            pan: DVec3::ZERO,
-            follow: false,
-            selected: None,
-            overlays: Overlays::default(),
-            inspector: false,
-            ghost: false,
-            marker: Marker::Ascii,
-            colors: Colors::Never,
-        }
+        ViewSettings { overlays: Overlays::default(), ..ViewSettings::default() }
     }
 
     #[test]

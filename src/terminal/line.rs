@@ -226,7 +226,7 @@ impl Line {
         }
     }
 
-    /// Answers under way will not reach us: somebody else has read the terminal meanwhile.
+    /// Lets go of the requests under way: their answers have gone to another program that read the terminal meanwhile.
     pub(super) fn forget(&mut self) {
         self.unanswered.clear();
         self.waiting = None;

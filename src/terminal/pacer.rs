@@ -130,7 +130,7 @@ impl Pacer {
         Some(Return { silence, skipped: waited.as_nanos() / self.interval().as_nanos().max(1) })
     }
 
-    /// Somebody else has read the terminal.
+    /// Lets go of the requests under way: another program has read the terminal.
     pub(super) fn forget_requests(&mut self) {
         self.line.forget();
     }

@@ -105,9 +105,12 @@ impl Instant {
     /// The clock goes on to `time`, s; says so if it does not for too many events.
     #[inline(always)]
     pub(super) fn advance_clock(&mut self, trajectories: &mut Trajectories, time: f64) -> Result<(), Stall> {
-        let clock_ulp = trajectories.clock_ulp();
-        trajectories.now = trajectories.now.max(time);
-        if time - self.began >= clock_ulp {
+        let before = trajectories.now;
+        // only at the clock's zero can it advance by less than the ulp that counts
+        let advances =
+            time > before && (before >= trajectories.clock_size() || time - self.began >= trajectories.clock_ulp());
+        trajectories.now = before.max(time);
+        if advances {
             self.began = time;
             (self.events, self.spent, self.collapsed) = (0, 0, false);
             if !self.chain.is_empty() || !self.releases.is_empty() {
