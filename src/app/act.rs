@@ -22,7 +22,7 @@ const PROMPT: usize = 200;
 
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
-        self.message = None;
+        (self.answer, self.news) = (None, None);
         // These work whatever is open and is being typed into.
         if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
             keys::action(key).filter(|_| key.ctrl)

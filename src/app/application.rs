@@ -48,9 +48,9 @@ impl App {
         self.with_screen(|screen| view::cursor(screen, self.state.area))
     }
 
-    /// One line of news in place of the key hints, until the next key.
-    pub fn say(&mut self, message: impl Into<String>) {
-        self.state.say(message);
+    /// Says what happened unasked, in place of the key hints and behind the answer to the last key, until the next key.
+    pub fn tell(&mut self, news: impl Into<String>) {
+        self.state.tell(news);
     }
 
     /// The latest report of the run.
@@ -102,7 +102,7 @@ impl App {
             self.state.has_target &= self.state.running;
         }
         if self.state.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
-            self.state.say(STALLED);
+            self.state.tell(STALLED);
         }
         if self.state.report.obeyed == before.obeyed && self.state.report.activity == before.activity {
             Effect::Draw
@@ -113,6 +113,7 @@ impl App {
 
     /// The screen as it stands, lent to `show`.
     fn with_screen<T>(&self, show: impl FnOnce(&Screen) -> T) -> T {
+        let message = self.state.message();
         let (help, hints) = (pairs(&self.state.help), pairs(&self.state.hints));
         let entries: Vec<(&str, &str)> = match &self.state.open {
             Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
@@ -135,7 +136,7 @@ impl App {
                     cursor: list.cursor(),
                 },
             },
-            message: self.state.message.as_deref(),
+            message: message.as_deref(),
             hints: &hints,
         })
     }

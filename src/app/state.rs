@@ -55,7 +55,10 @@ pub(super) struct State {
     pub(super) notify: Notify,
     pub(super) view_settings: ViewSettings,
     pub(super) open: Open,
-    pub(super) message: Option<String>,
+    /// What the last key has led to, until the next key.
+    pub(super) answer: Option<String>,
+    /// What happened unasked and is worth a line, until the next key.
+    pub(super) news: Option<String>,
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
@@ -90,7 +93,8 @@ impl State {
             notify,
             view_settings: first_view_settings(setup.marker, setup.colors),
             open: Open::Nothing,
-            message: None,
+            answer: None,
+            news: None,
             area: Rect::default(),
             help: help_rows(),
             hints: hints(),
@@ -102,9 +106,20 @@ impl State {
         Ok(state)
     }
 
-    /// One line of news in place of the key hints, until the next key.
-    pub(super) fn say(&mut self, message: impl Into<String>) {
-        self.message = Some(message.into());
+    /// Answers the last key, in place of the key hints, until the next key.
+    pub(super) fn say(&mut self, answer: impl Into<String>) {
+        self.answer = Some(answer.into());
+    }
+
+    /// Says what happened unasked, behind the answer to the last key, until the next key.
+    pub(super) fn tell(&mut self, news: impl Into<String>) {
+        self.news = Some(news.into());
+    }
+
+    /// The message in place of the key hints.
+    pub(super) fn message(&self) -> Option<String> {
+        let said: Vec<&str> = [&self.answer, &self.news].into_iter().flatten().map(String::as_str).collect();
+        (!said.is_empty()).then(|| said.join(" "))
     }
 
     /// Lets the run go on and on, or pauses it.

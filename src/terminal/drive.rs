@@ -74,7 +74,7 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let post = Post(sender);
     let news = post.clone();
     let mut app = App::new(setup, Arc::new(move || news.send(Event::News)))?;
-    options.message.into_iter().for_each(|message| app.say(message));
+    options.message.into_iter().for_each(|message| app.tell(message));
     let guard = Session::start(io::stdout().as_fd(), post.clone())?;
     signals::start(Arc::clone(guard.session()), post.clone())?;
     let writer = Writer::start(Arc::clone(guard.session()), post.clone())?;
@@ -153,7 +153,7 @@ impl Driver {
                 let step = self.typed(input);
                 let left_out = self.backlog.obeyed();
                 if left_out > 0 {
-                    self.app.say(format!("{left_out} keys came faster than they could be obeyed, and were left out."));
+                    self.app.tell(format!("{left_out} keys came faster than they could be obeyed, and were left out."));
                 }
                 return step;
             }
@@ -200,7 +200,7 @@ impl Driver {
                     if let Some(Return { silence, skipped }) = self.pacer.replied(at.duration_since(self.clock)) {
                         let seconds = silence.as_secs_f64();
                         let pictures = if skipped == 1 { "frame was" } else { "frames were" };
-                        self.app.say(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
+                        self.app.tell(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
                         self.pacer.urgent(self.clock.elapsed());
                     }
                 }
@@ -260,7 +260,7 @@ impl Driver {
     /// Gives the terminal to the shell and stops; says so instead if no shell could continue us.
     fn suspend(&mut self) -> Result<(), Error> {
         if !signals::somebody_could_continue_us() {
-            self.app.say("There is no shell that could continue carom, so it goes on.");
+            self.app.tell("There is no shell that could continue carom, so it goes on.");
             self.repaint();
             return Ok(());
         }

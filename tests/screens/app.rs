@@ -368,6 +368,22 @@ fn a_message_takes_the_rows_it_needs_and_what_is_hardly_meant_is_said_at_once() 
 }
 
 #[test]
+fn what_happens_unasked_hides_no_answer_and_the_next_key_ends_both() {
+    let mut user = User::with("paper-0");
+    user.type_in(":hash\n");
+    user.app.tell("The line was silent for 1.0 s; 3 frames were skipped.");
+    user.app.tell("The line was silent for 2.0 s; 9 frames were skipped.");
+    user.look();
+    let message = format!("{} {}", user.row(-2).trim(), user.row(-1).trim());
+    assert!(
+        message.contains("hash=") && message.contains("for 2.0 s; 9 frames") && !message.contains("1.0 s"),
+        "{message}"
+    );
+    user.type_in("\x1b");
+    assert!(!user.text().contains("hash=") && !user.text().contains("silent"), "{}", user.text());
+}
+
+#[test]
 fn sizes_down_to_nothing_are_drawn() {
     let mut user = User::with("paper-2");
     for popup in ["", "?", "\x1bo", "\x1b:"] {
