@@ -112,13 +112,14 @@ impl Mechanics {
         for &i in &spheres {
             self.advance(model, i);
         }
-        self.rests.dirty.clear();
         for &i in &spheres {
             self.rests.remove_island(i, self.trajectories.now);
         }
         for &i in &spheres {
             self.add_walls_at_point(model, i);
         }
+        // what has just been added is solved here too
+        self.rests.dirty.clear();
         let keys: BTreeSet<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
         let mut open: Vec<Vec<Key>> = vec![keys.into_iter().collect()];
         while let Some(keys) = open.pop() {
