@@ -19,6 +19,7 @@ mod enumerate;
 mod equality;
 mod factor;
 mod gauss_seidel;
+mod gram;
 mod island;
 mod problem;
 mod resting;
