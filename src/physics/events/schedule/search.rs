@@ -127,6 +127,9 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
         let (records, now) = (&self.trajectories.records, self.trajectories.now);
+        if !self.rests.is_empty() && self.rest_on_each_other(other) {
+            return 0;
+        }
         let line = &records[other].trajectory;
         let reach = records[self.slot].trajectory.r + line.r;
         let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
@@ -145,16 +148,19 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     fn offer(&self, other: usize, time: f64, is_contact: bool, plan: &mut Plan) -> u64 {
         if time < plan.contact || time == plan.contact && self.wins_tie(other, plan) {
-            if !self.rests.is_empty() {
-                let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
-                if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
-                    return 0;
-                }
+            if !self.rests.is_empty() && self.rest_on_each_other(other) {
+                return 0;
             }
             (plan.contact, plan.kind, plan.is_contact) = (time, Kind::Pair, is_contact);
             (plan.other, plan.motion_version) = (other as u32, self.trajectories.records[other].motion_version);
         }
         1
+    }
+
+    /// Whether the sphere and the one at `other` rest on each other.
+    fn rest_on_each_other(&self, other: usize) -> bool {
+        let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
+        self.rests.holds((Kind::Pair, i.min(j), i.max(j)))
     }
 
     /// Among pairs at one time the lower (a, b) comes first; walls come before pairs.
