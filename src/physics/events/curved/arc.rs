@@ -31,8 +31,8 @@ const FINEST: f64 = 16.0 * f64::EPSILON;
 const FIRST: f64 = 0.05;
 
 /// Length of the first arc after something has happened, in the same units: it may happen again at once, a million times
-/// a second, and so short an arc costs a quarter.
-const BRIEF: f64 = 1e-4;
+/// a second, and so short an arc costs a quarter. The classical method of order 4 is off by less than 1e-17 radii then.
+const BRIEF: f64 = 1e-3;
 
 /// Up to this share of an arc v of its polynomial is as good as integrated: its error grows as the square.
 const BEGINNING: f64 = 1e-3;
@@ -68,6 +68,8 @@ pub(crate) struct Arc {
     next: f64,
     /// Which contacts carry a load, and therefore hold.
     loaded: Vec<bool>,
+    /// Whether it is so short that a method of order 4 is exact.
+    brief: bool,
 }
 
 /// The bodies at one end of an arc, and their accelerations, m/s².
@@ -99,6 +101,9 @@ impl Arc {
             return self.end.bodies.clone();
         }
         let motion = ConstrainedMotion::held_by(&self.start.bodies, contacts, &self.loaded);
+        if self.brief {
+            return motion.step_rk4(&self.start.bodies, time);
+        }
         if time > BEGINNING * self.span {
             return motion.step_rkf8(&self.start.bodies, time);
         }
@@ -120,9 +125,8 @@ impl Arc {
             let bodies = motion.step_rkf8(&start.bodies, span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let (start, loaded) = (start.clone(), loaded.clone());
-            let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
-            let middle = motion.step_rkf8(&arc.start.bodies, 0.5 * span);
-            let growth = cube_root(arc.allowance(&middle).sqrt());
+            let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded, brief: false };
+            let growth = cube_root(arc.allowance(&motion).sqrt());
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= 1.0 || span <= SHORT * scale {
                 arc.cut_short(&motion, &LOOKS);
@@ -131,23 +135,29 @@ impl Arc {
             span *= (0.8 * growth).max(0.05);
         }
         // Out of reach of numbers: no motion at all, which the watchdog of the method will notice.
-        Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded }
+        Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded, brief: true }
     }
 
     /// An arc so short that neither its integration nor its polynomial needs looking at.
     fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
         let bodies = motion.step_rk4(&start.bodies, span);
         let end = Ends { a: motion.accelerations(&bodies).0, bodies };
-        let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
+        let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded, brief: true };
         arc.cut_short(motion, &LOOKS[3..]);
         arc
     }
 
-    /// How many times the error in the middle, where the bodies really are at `middle`, fits into what is allowed.
-    fn allowance(&self, middle: &[Body]) -> f64 {
+    /// How many times the error in the middle fits into what is allowed. The error of the polynomial is x⁽⁶⁾/720 s³ (h − s)³, so
+    /// that in the middle it is h²/24 times that of the acceleration, which the equation itself tells.
+    fn allowance(&self, motion: &ConstrainedMotion) -> f64 {
         let read = self.at(0.5 * self.span);
-        let share = |(read, real): (&Body, &Body)| TOLERANCE * real.size() / read.x.distance(real.x);
-        read.iter().zip(middle).map(share).fold(1e6, |least, share| if share >= least { least } else { share })
+        let real = motion.accelerations(&read).0;
+        let share = |(i, (read, real)): (usize, (&Body, &DVec3))| {
+            let off = self.polynomial(i).chord_acceleration(0.5 * self.span, 0.0).distance(*real);
+            TOLERANCE * read.size() / (off * (self.span * self.span / 24.0))
+        };
+        let shares = read.iter().zip(&real).enumerate().map(share);
+        shares.fold(1e6, |least, share| if share >= least { least } else { share })
     }
 
     /// The bodies `time` (s) after the arc's beginning.
