@@ -14,7 +14,7 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed};
-use super::equation::{ConstrainedMotion, loaded};
+use super::equation::ConstrainedMotion;
 use super::hermite::{Hermite, cube_root, fall_below_zero};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
@@ -80,15 +80,15 @@ struct Ends {
 }
 
 impl Arc {
-    /// The motion of bodies from now on, while the contacts that carry a load now go on holding. The contacts are closed
+    /// The motion of bodies from now on, while the contacts that are `loaded` go on holding. The contacts are closed
     /// (v_n = 0).
-    pub(crate) fn new(bodies: Vec<Body>, contacts: &[Closed]) -> Arc {
-        Arc::of(bodies, contacts, None)
+    pub(crate) fn new(bodies: Vec<Body>, contacts: &[Closed], loaded: Vec<bool>) -> Arc {
+        Arc::of(bodies, contacts, loaded, None)
     }
 
     /// The arc that goes on from the end of this one.
     pub(crate) fn go_on(&self, contacts: &[Closed]) -> Arc {
-        Arc::of(self.real(self.length, contacts), contacts, Some(self.next))
+        Arc::of(self.real(self.length, contacts), contacts, self.loaded.clone(), Some(self.next))
     }
 
     /// The bodies `time` (s) after the arc's beginning, integrated up to there: the polynomial is as good in x, but its v
@@ -112,8 +112,7 @@ impl Arc {
         bodies
     }
 
-    fn of(mut bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
-        let loaded = loaded(&bodies, contacts);
+    fn of(mut bodies: Vec<Body>, contacts: &[Closed], loaded: Vec<bool>, span: Option<f64>) -> Arc {
         let motion = ConstrainedMotion::held_by(&bodies, contacts, &loaded);
         motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
@@ -247,7 +246,8 @@ impl Body {
 mod tests {
     use super::*;
     use crate::geometry::Parallelogram;
-    use crate::physics::events::curved::bodies::On;
+    use crate::physics::events::curved::bodies::{On, geometry};
+    use crate::physics::support::{Bodies, Resting, accelerations};
     use crate::physics::wall::{Face, Part};
     use crate::physics::wall_parts::room;
 
@@ -261,6 +261,20 @@ mod tests {
         Body { x, v, applied: DVec3::NEG_Y * G, inverse_mass: 0.5, r: 0.5 }
     }
 
+    /// Which contacts carry a load now.
+    fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
+        let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+        let (velocity, applied): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.v, body.applied)).unzip();
+        let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
+        let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+        accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
+    }
+
+    fn arc(bodies: Vec<Body>, contacts: &[Closed]) -> Arc {
+        let loaded = loaded(&bodies, contacts);
+        Arc::new(bodies, contacts, loaded)
+    }
+
     /// Half the energy per mass, relative to that of the level of the contact.
     fn energy(body: &Body, level: f64) -> f64 {
         0.5 * body.v.length_squared() + G * (body.x.y - level)
@@ -268,7 +282,7 @@ mod tests {
 
     /// Goes on until a contact changes; how long that took, s, and in how many steps.
     fn until_change(bodies: &mut [Body], contacts: &[Closed]) -> (f64, u32) {
-        let mut arc = Arc::new(bodies.to_vec(), contacts);
+        let mut arc = arc(bodies.to_vec(), contacts);
         let mut time = 0.0;
         for count in 1..1_000_000 {
             time += arc.length;
@@ -358,7 +372,7 @@ mod tests {
         let contacts = [Closed { a: 0, on: On::Wall(&face, Part::Corner(2)) }];
         let corner = face.shape.corners()[2];
         let start = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
-        let mut arc = Arc::new(start.clone(), &contacts);
+        let mut arc = arc(start.clone(), &contacts);
         let motion = ConstrainedMotion::held_by(&start, &contacts, &loaded(&start, &contacts));
         for _ in 0..5 {
             let mut from = 0.0;
@@ -385,7 +399,7 @@ mod tests {
         let face = floor();
         let contacts = [Closed { a: 0, on: On::Wall(&face, Part::Corner(2)) }];
         let start = vec![sphere(face.shape.corners()[2] + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
-        let brief = Arc::new(start.clone(), &contacts);
+        let brief = arc(start.clone(), &contacts);
         let long = brief.go_on(&contacts);
         for arc in [brief, long] {
             let motion = ConstrainedMotion::held_by(&arc.start.bodies, &contacts, &arc.loaded);

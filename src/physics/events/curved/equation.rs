@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed, On, geometry};
-use crate::physics::support::{Bodies, Resting, Row, accelerations, bind, restore};
+use crate::physics::support::{Row, bind, restore};
 use crate::physics::wall_parts::{BORDER, room};
 
 /// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
@@ -154,16 +154,6 @@ impl<'a> ConstrainedMotion<'a> {
         let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).map(sunk);
         loads.chain(rooms).chain(idle).chain(gaps).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// Which contacts carry a load now.
-pub(crate) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
-    let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
-    let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-    let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
-    let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
-    accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
 }
 
 /// Rooms, openings and gaps of idle contacts at the beginning of an arc.

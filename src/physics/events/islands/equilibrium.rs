@@ -43,7 +43,8 @@ pub(crate) struct Settled {
 ///
 /// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
 /// clock or the coordinates can tell is closed.
-pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
+/// `loads` (N, by contact) are what they carried last.
+pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f64], tick: f64) -> Settled {
     let (resting, gaps): (Vec<Resting>, Vec<f64>) = contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
@@ -61,7 +62,8 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) 
     let closed: Vec<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
     let touching: Vec<Resting> = closed.iter().map(|&index| resting[index]).collect();
     let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &[]);
+    let guess: Vec<f64> = closed.iter().map(|&index| loads[index]).collect();
+    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
     let impulses = if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() };
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];

@@ -183,7 +183,9 @@ impl Mechanics {
     fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
         self.rub_off(model, keys);
         let (spheres, mut bodies, contacts) = self.island_of(model, keys);
-        let settled = solve_island(&mut bodies, &closed(model, &contacts), CLOCK_ULPS * self.trajectories.clock_ulp());
+        let loads: Vec<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
+        let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), &loads, tick);
         if !settled.converged {
             return Err(self.not_held(keys));
         }
@@ -212,7 +214,7 @@ impl Mechanics {
         if settled.curved {
             self.set_chord(
                 &spheres,
-                Curve::new(model, bodies, contacts, self.trajectories.now)
+                Curve::new(model, bodies, (contacts, &settled.forces), self.trajectories.now)
                     .cut(pause.min(self.rubbing_time(keys) - self.trajectories.now)),
             );
         } else {
