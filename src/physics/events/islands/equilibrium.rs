@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
-use crate::physics::events::rounding::{HOP, SUM};
+use crate::physics::events::rounding::{BRUSH, HOP, SUM};
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
 
 /// Cosine of the angle between the normals of contacts that oppose each other: within a millirad of straight.
@@ -49,7 +49,12 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let stopped = velocities(all, if only_fits(&resting, &velocity) { &[] } else { &resting });
+    let approaches = |contact: &Resting| {
+        let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -BRUSH * speed
+    };
+    let moves_apart = !resting.iter().any(approaches) || only_fits(&resting, &velocity);
+    let stopped = velocities(all, if moves_apart { &[] } else { &resting });
     for (place, &body) in stopped.bodies.iter().enumerate() {
         bodies[body].v = stopped.vectors[place];
     }
