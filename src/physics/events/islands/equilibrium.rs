@@ -131,10 +131,8 @@ impl Settled {
         if self.forces[index] > 0.0 {
             return Fate::Loaded;
         }
+        let (opening, noise) = (self.opening(contact, bodies), self.noise(contact, bodies));
         let v = relative(contact, &|body| bodies[body].v);
-        let a = relative(contact, &|body| self.a[body]);
-        let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
-        let noise = self.noise(contact, bodies);
         let parts = contact.normal.dot(v) > 0.0 && gap > OPENED * bodies[contact.a].r;
         if self.curved && opening <= BARELY * pull(bodies) && !parts {
             // the chord that stands for a curved motion could press it: it stays until the arc shows that it opens
@@ -142,6 +140,13 @@ impl Settled {
         }
         // unpressed and turning, it lets go: the next approach is a contact like any other
         if opening > noise || parts || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
+    }
+
+    /// How fast the normal velocity of a contact grows, m/s².
+    fn opening(&self, contact: &Resting, bodies: &[Body]) -> f64 {
+        let v = relative(contact, &|body| bodies[body].v);
+        let a = relative(contact, &|body| self.a[body]);
+        contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v)
     }
 
     /// Size of the rounding of relative accelerations, m/s².
@@ -207,12 +212,13 @@ impl Settled {
             return;
         }
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
-        let closes = |(fate, holds): (&mut Fate, bool)| {
-            if holds && *fate == Fate::Opening {
-                *fate = Fate::Idle;
+        for index in (0..holds.len()).filter(|&index| holds[index]) {
+            // what accelerates apart does so whatever rounding has made of its velocity: on parabolas nothing looks again
+            let parts = !self.curved && self.opening(&resting[index], bodies) > self.noise(&resting[index], bodies);
+            if self.fate[index] == Fate::Opening && !parts {
+                self.fate[index] = Fate::Idle;
             }
-        };
-        self.fate.iter_mut().zip(holds).for_each(closes);
+        }
     }
 
     /// An idle contact whose bodies drift apart lets go, however slowly: what would meet there again must be seen.
