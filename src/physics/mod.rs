@@ -23,10 +23,13 @@
 mod closed_room;
 mod conserved;
 pub mod contact;
+#[doc(hidden)]
 pub mod contact_time;
 mod events;
 mod exact;
+mod frame_contact;
 mod free_flight;
+#[doc(hidden)]
 pub mod impact_law;
 #[cfg(test)]
 pub(crate) mod law_fault;
@@ -34,15 +37,20 @@ mod log;
 pub mod method;
 pub mod model;
 mod moreau;
+#[doc(hidden)]
 pub mod neighbors;
+#[doc(hidden)]
 pub mod overlap;
 mod paper;
+#[doc(hidden)]
 pub mod path;
 pub mod requirements;
 pub mod simulation;
 pub mod state;
+#[doc(hidden)]
 pub mod support;
 mod swept;
+#[doc(hidden)]
 pub mod wall;
 mod wall_parts;
 
@@ -51,5 +59,5 @@ pub use events::rest_reason::RestReason;
 pub use method::{Description, Effect, Knobs, Progress, Until, knobs};
 pub use model::{ContactLaw, Method, Model, Scene, Settings};
 pub use requirements::{PairSearch, Requirements};
-pub use simulation::{Simulation, describe, deviations};
-pub use state::{Stall, State, Tallies};
+pub use simulation::{Simulation, describe, deviations, slack};
+pub use state::{Stall, StallKind, State, Tallies};

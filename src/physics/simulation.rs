@@ -30,6 +30,15 @@ pub fn deviations(method: Method) -> &'static [&'static str] {
     }
 }
 
+/// The overlap that a method accepts beyond the tolerance, dimensionless; none if it accepts nothing beyond it and answers
+/// a contact when it happens, not in the frame after.
+pub fn slack(method: Method) -> Option<f64> {
+    match method {
+        Method::Paper => Some(paper::SLACK),
+        Method::Swept | Method::Exact | Method::Moreau => None,
+    }
+}
+
 /// The methods, dispatched once per call.
 #[derive(Debug, Clone)]
 enum Engines {
@@ -170,6 +179,12 @@ impl Simulation {
     /// The trial steps of the last frame's search for the collision time.
     pub fn probes(&self) -> &[Probe] {
         &self.log.probes
+    }
+
+    /// The state in which the last frame's search tried a step of this length (s): a probe's degree is that of these
+    /// positions. None while another frame is in progress.
+    pub fn trial(&self, step: f64) -> Option<State> {
+        each!(&self.engine, engine => engine.trial(&self.model, step))
     }
 
     /// Keep (or stop keeping) every collide, rest and release for [`Simulation::take_events`]. Off at first: it costs

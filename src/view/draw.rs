@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use super::{
-    help, inspector,
+    card, help, inspector,
     layout::{self, Plan},
     projection, prompt, scenes,
     screen::{Popup, Screen, ViewSettings},
@@ -44,7 +44,10 @@ fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
             stage::draw(screen, pane, sheet);
         }
         if let Some(area) = plan.inspector {
-            inspector::draw(screen, area, sheet);
+            match screen.view_settings.card {
+                Some(card) => card::draw(screen, card, area, sheet),
+                None => inspector::draw(screen, area, sheet),
+            }
         }
         if let (Some(area), Some(comparison)) = (plan.trade, &screen.comparison) {
             trade::draw(screen, comparison, area, sheet);

@@ -90,15 +90,20 @@ fn trade_rows(views: u16) -> u16 {
     }
 }
 
+/// Whether a screen of that size shows the inspector, or a card in its place.
+pub fn inspector_is_shown(settings: &ViewSettings, area: Rect) -> bool {
+    settings.card.is_some() || settings.inspector.unwrap_or(area.width >= WIDE)
+}
+
 /// The views' part of the body and the inspector's: a third column if wide, else in the side view's place, if at all.
 fn split_inspector(body: Rect, area: Rect, settings: &ViewSettings) -> (Rect, Option<Rect>) {
+    if !inspector_is_shown(settings, area) {
+        return (body, None);
+    }
     if area.width >= WIDE {
         let width = (area.width / 4).clamp(30, 42);
         let (views, inspector) = split_right(body, width);
         return (views, Some(inspector));
-    }
-    if !settings.inspector {
-        return (body, None);
     }
     if area.width < 60 || area.height < 16 {
         return (Rect { width: 0, ..body }, Some(body));

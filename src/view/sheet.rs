@@ -77,7 +77,14 @@ impl<'a> Sheet<'a> {
         if self.marker != Marker::Ascii || text.is_ascii() {
             return Cow::Borrowed(text);
         }
-        Cow::Owned(text.chars().map(ascii).collect())
+        Cow::Owned(text.chars().fold(String::with_capacity(text.len()), |mut plain, c| {
+            match c {
+                '≤' => plain.push_str("<="),
+                '≥' => plain.push_str(">="),
+                c => plain.push(ascii(c)),
+            }
+            plain
+        }))
     }
 
     /// Text cut to so many columns, an ellipsis at the end if it was cut.
