@@ -24,8 +24,12 @@ mod app;
 mod bounds;
 #[path = "screens/card.rs"]
 mod card;
+#[path = "screens/card_keys.rs"]
+mod card_keys;
 #[path = "screens/comparison.rs"]
 mod comparison;
+#[path = "screens/depth.rs"]
+mod depth;
 #[path = "screens/frames.rs"]
 mod frames;
 #[path = "support/stages.rs"]

@@ -12,6 +12,7 @@
 //! | `layout` | what goes where, by the size of the screen |
 //! | `sheet`, `glyphs`, `palette` | text in cells; its signs and its colours |
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
+//! | `side` | which way a view looks |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
 //! | `card` | one contact taken apart, in the inspector's place |
@@ -35,6 +36,7 @@ mod scenes;
 mod screen;
 mod shapes;
 mod sheet;
+mod side;
 mod stage;
 mod status;
 mod timeline;
