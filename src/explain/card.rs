@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::approach;
 use super::line::Line;
 use crate::format::{digits, number, setting, significant};
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
@@ -27,7 +28,7 @@ pub struct Card {
 pub fn card(snapshot: &Snapshot, index: usize, between: &str) -> Option<Card> {
     let contact = snapshot.contacts.get(index)?;
     let of = Of { snapshot, contact, index };
-    let lines = [of.why(), of.place(), of.speeds(), of.impulse(), of.energy(), of.depth(), of.acts()];
+    let lines = [of.why(), of.place(), of.speeds(), of.impulse(), of.energy(), of.depth(), of.acts(), of.approach()];
     Some(Card { bodies: of.bodies(between), class: contact.class, lines: lines.into_iter().flatten().collect() })
 }
 
@@ -185,6 +186,15 @@ impl Of<'_> {
             )
         };
         vec![Line::new("overlap", text)]
+    }
+
+    /// The polynomial whose root is the contact's time, where the method solves one.
+    fn approach(&self) -> Vec<Line> {
+        let approach = self.snapshot.approaches.get(self.index).copied().flatten();
+        approach
+            .filter(|_| self.snapshot.method == "exact")
+            .map(|approach| approach::lines(&approach))
+            .unwrap_or_default()
     }
 
     /// When the response acts, if not at once.

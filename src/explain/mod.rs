@@ -6,10 +6,12 @@
 //! | file | owns |
 //! |---|---|
 //! | `card` | one contact: class and rule, speeds, impulse, energy, how deep, why it rests |
+//! | `approach` | how its time follows from a polynomial |
 //! | `line` | a line of text and what it is about |
 //!
 //! [`Snapshot`]: crate::snapshot::Snapshot
 
+mod approach;
 mod card;
 mod line;
 

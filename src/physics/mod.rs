@@ -20,6 +20,7 @@
 //! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
 //! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 
+mod approach;
 mod closed_room;
 mod conserved;
 pub mod contact;
@@ -54,6 +55,7 @@ mod swept;
 pub mod wall;
 mod wall_parts;
 
+pub use approach::{Approach, Shape};
 pub use contact::{Class, Contact, Kind, Probe};
 pub use events::rest_reason::RestReason;
 pub use method::{Description, Effect, Knobs, Progress, Until, knobs};

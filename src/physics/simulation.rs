@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::approach::Approach;
 use super::contact::{Contact, Key, Probe};
 use super::events::rest_reason::RestReason;
 use super::log::Log;
@@ -185,6 +186,17 @@ impl Simulation {
     /// positions. None while another frame is in progress.
     pub fn trial(&self, step: f64) -> Option<State> {
         each!(&self.engine, engine => engine.trial(&self.model, step))
+    }
+
+    /// Keep (or stop keeping) how the bodies of a frame's contacts came together, for [`Simulation::approaches`]. Off at
+    /// first: it costs a polynomial per contact, and never a bit of the result.
+    pub fn explain(&mut self, on: bool) {
+        self.log.explaining = on;
+    }
+
+    /// How the bodies of the last frame's contacts came together, of methods that follow single events, if it was asked for.
+    pub fn approaches(&self) -> &[Approach] {
+        &self.log.approaches
     }
 
     /// Keep (or stop keeping) every collide, rest and release for [`Simulation::take_events`]. Off at first: it costs

@@ -23,5 +23,5 @@ pub use ticks::Ticks;
 pub use trend::{Trade, Trend};
 
 pub use crate::audit::Alarm;
-pub use crate::physics::{Class, Contact, Kind, Probe, RestReason, Tallies};
+pub use crate::physics::{Approach, Class, Contact, Kind, Probe, RestReason, Shape, Tallies};
 pub use crate::scene::ContactLaw;

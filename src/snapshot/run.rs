@@ -6,10 +6,13 @@ use glam::DVec3;
 
 use super::stage::Stage;
 use crate::audit::Alarm;
-use crate::physics::{Class, Contact, Probe, RestReason, Simulation, Stall, State, Tallies, slack};
+use crate::physics::{Approach, Class, Contact, Probe, RestReason, Simulation, Stall, State, Tallies, slack};
 
 /// Most centres that the trial steps of a snapshot hold: half a megabyte.
 const TRIALS: usize = 20_000;
+
+/// Contacts of a frame, from the first on, of which a snapshot tells how they came about.
+const APPROACHES: usize = 1000;
 
 /// A run at the end of one frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +35,8 @@ pub struct Snapshot {
     pub contacts: Vec<Contact>,
     /// Why each of them rests, by index; none if it does not, or where the method has no reason beyond the law.
     pub rest_reasons: Vec<Option<RestReason>>,
+    /// How the bodies of each of the first contacts came together, by index, where the method follows single events.
+    pub approaches: Vec<Option<Approach>>,
     /// What its search for the collision time did, trial step by trial step; empty if it needed none.
     pub probes: Vec<Probe>,
     /// Centres in each of these trial steps, m; empty if there are too many of them, or if the next frame is in progress.
@@ -67,6 +72,7 @@ impl Snapshot {
             initial_energy: sim.initial_energy(),
             contacts: sim.contacts().to_vec(),
             rest_reasons: sim.contacts().iter().map(|contact| reason(sim, contact)).collect(),
+            approaches: sim.contacts().iter().take(APPROACHES).map(|contact| approach(sim, contact)).collect(),
             probes: sim.probes().to_vec(),
             trials: trials(sim),
             tallies: sim.tallies(),
@@ -101,4 +107,9 @@ fn trials(sim: &Simulation) -> Vec<Vec<DVec3>> {
         return Vec::new();
     }
     probes.iter().map(|probe| Some(sim.trial(probe.step)?.x)).collect::<Option<_>>().unwrap_or_default()
+}
+
+fn approach(sim: &Simulation, contact: &Contact) -> Option<Approach> {
+    let led_here = |approach: &&Approach| approach.key == contact.key() && approach.time == contact.time;
+    sim.approaches().iter().find(led_here).copied()
 }

@@ -288,5 +288,6 @@ impl Runner {
 fn begin(job: &Job) -> Simulation {
     let mut simulation = Simulation::new(&job.scene, job.settings);
     simulation.record_events(true);
+    simulation.explain(true);
     simulation
 }

@@ -139,6 +139,54 @@ fn a_trial_steps_degree_is_that_of_the_centres_that_are_shown_with_it() {
 }
 
 #[test]
+fn the_polynomial_of_a_fall_is_that_of_the_closed_form() {
+    // From 9.5 m with 0 m/s: gap 9 m − 4.9 m/s² τ², so that it touches at √(9/4.9) s.
+    let opened = scene::open("paper-0").expect("built in");
+    let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
+    let mut run = Simulation::new(&opened.scene, Settings { method: Method::Exact, dt: 1e-2, tolerance: 1e-3 });
+    run.explain(true);
+    while run.tallies().impacts == 0 {
+        run.advance(Until::Frame, u64::MAX);
+    }
+    let snapshot = Snapshot::of(&stage, &run, None);
+    let index = snapshot.contacts.iter().position(|contact| contact.class == Class::Collide).expect("an impact");
+    let approach = snapshot.approaches[index].expect("it is kept");
+    assert_eq!(approach.roots().len(), 1);
+    assert!((approach.roots()[0] + approach.since - (9.0_f64 / 4.9).sqrt()).abs() < 1e-14, "{approach:?}");
+    let card = explain::card(&snapshot, index, " - ").expect("there is one");
+    assert_eq!(line(&card, "gap"), "the gap to its face: 9 − 4.9 τ² m, τ = t − 0 s");
+    assert_eq!(line(&card, "roots"), "τ = 1.3553 s");
+    assert!(line(&card, "chosen").starts_with("the first root at which it falls"), "{card:#?}");
+}
+
+#[test]
+fn every_impact_of_exact_is_a_root_of_its_polynomial_and_its_bodies_approach_there() {
+    for (name, until) in [("billiard", 3.0), ("paper-3", 10.0), ("galton", 1.0), ("newtons-cradle", 3.0)] {
+        let opened = scene::open(name).expect("built in");
+        let mut run = Simulation::new(&opened.scene, Settings { method: Method::Exact, dt: 1e-2, tolerance: 1e-3 });
+        run.explain(true);
+        let mut impacts = 0;
+        while run.time() < until {
+            run.advance(Until::Frame, u64::MAX);
+            let struck = run.contacts().iter().filter(|contact| contact.class == Class::Collide);
+            for contact in struck {
+                let approach = run.approaches().iter().find(|one| one.key == contact.key() && one.time == contact.time);
+                let Some(approach) = approach else { continue }; // struck by an impact at the same instant
+                let tau = approach.time - approach.since;
+                let value = approach.polynomial.iter().rev().fold(0.0, |sum, c| sum * tau + c);
+                let size: f64 = approach.polynomial.iter().rev().fold(0.0, |sum, c| sum * tau + c.abs());
+                assert!(
+                    value.abs() <= 1e-11 * size && approach.slope(tau) <= 1e-9 * size,
+                    "{name}: {approach:?}, {value}"
+                );
+                impacts += 1;
+            }
+        }
+        assert!(impacts > 3, "{name}: {impacts}");
+    }
+}
+
+#[test]
 fn a_card_looks_as_stored() {
     let mut scene = stages::wedge();
     scene.snapshot.contacts.push(stages::contact(Kind::Wall, 0, 0, Class::Rest));

@@ -94,6 +94,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         initial_energy: 98.0,
         contacts: Vec::new(),
         rest_reasons: Vec::new(),
+        approaches: Vec::new(),
         probes: Vec::new(),
         trials: Vec::new(),
         tallies: Tallies::default(),

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::record::Trajectory;
 use super::rounding::{CLOCK_ULPS, HOP, SUMMED_HOP};
 use super::trajectories::Trajectories;
+use crate::physics::approach::Approach;
 use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::impact_law::{normal_velocity, pair_normal_velocity};
 use crate::physics::model::Model;
@@ -119,6 +120,18 @@ impl Trajectories {
         let at = touch(&model.faces[b], path.x, reach);
         let (point, normal, gap) = (at.point, at.normal, at.gap);
         ContactState { key, point, normal, gap, reach, velocity: path.v, v_n: 0.0, a_n: 0.0, flat: false }
+    }
+
+    /// How the bodies of a contact that touch now came together since the motion of one of them last changed.
+    pub(crate) fn approach(&self, model: &Model, key: Key) -> Approach {
+        let (kind, a, b) = key;
+        let (one, since) = (self.trajectory(a), self.trajectory(a).t);
+        if kind == Kind::Wall {
+            return Approach::of_wall(key, [since, self.now], &self.path(a, since), (&model.faces[b], one.r));
+        }
+        let since = since.max(self.trajectory(b).t);
+        let path = self.path(a, since).relative_to(&self.path(b, since));
+        Approach::of_pair(key, [since, self.now], &path, one.r + self.trajectory(b).r)
     }
 
     /// The normal velocity of a contact whose trajectories are at the present, m/s.
