@@ -51,5 +51,5 @@ pub use events::rest_reason::RestReason;
 pub use method::{Description, Effect, Knobs, Progress, Until, knobs};
 pub use model::{ContactLaw, Method, Model, Scene, Settings};
 pub use requirements::{PairSearch, Requirements};
-pub use simulation::{Simulation, describe, deviations};
+pub use simulation::{Keyframe, Simulation, describe, deviations};
 pub use state::{Stall, State, Tallies};
