@@ -26,6 +26,8 @@ mod bounds;
 mod comparison;
 #[path = "screens/frames.rs"]
 mod frames;
+#[path = "screens/history.rs"]
+mod history;
 #[path = "support/stages.rs"]
 mod stages;
 

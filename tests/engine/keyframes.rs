@@ -77,4 +77,3 @@ fn other_settings_from_a_keyframe_on_lead_where_they_lead_from_the_run() {
         }
     }
 }
-

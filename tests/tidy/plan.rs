@@ -22,7 +22,7 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
         ],
     ),
     ("terminal", &["app", "frame", "printable", "scene", "view"]),
-    ("app", &["geometry", "printable", "scene", "snapshot", "view", "worker"]),
+    ("app", &["format", "geometry", "printable", "scene", "snapshot", "view", "worker"]),
     ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
     ("view", &["format", "snapshot"]),
     ("frame", &["printable"]),
