@@ -8,13 +8,15 @@ use super::{
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
     state::{Open, State},
+    until::Named,
     view_settings,
 };
 use crate::{
     printable,
     scene::Settings,
+    snapshot::Class,
     view::{self, CardView},
-    worker::{Activity, Command},
+    worker::{Activity, Bodies, Command, Stop},
 };
 
 /// Rows by which PageUp and PageDown move a card.
@@ -96,8 +98,16 @@ impl State {
             Action::Suspend => return Effect::Suspend,
             Action::Repaint => return Effect::Repaint,
             Action::TogglePause => self.toggle_pause(),
-            Action::Step => self.advance(Command::Step),
-            Action::NextImpact => self.advance(Command::NextImpact),
+            Action::Step => self.advance(Command::Forward(1)),
+            Action::TenOn => self.advance(Command::Forward(10)),
+            Action::StepBack => self.head_for(Command::Back(1), true),
+            Action::TenBack => self.head_for(Command::Back(10), true),
+            Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
+            Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
+            Action::Oldest => self.head_for(Command::Oldest, true),
+            Action::Newest => self.head_for(Command::Newest, true),
+            Action::Until => self.open = Open::Prompt("until ".into()),
+            Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
             Action::Reload => self.reload(),
             Action::PreviousScene => self.neighbor_scene(-1),
@@ -167,7 +177,7 @@ impl State {
     /// Steps or runs on from a pause.
     fn advance(&mut self, command: Command) {
         if !self.say_if_stalled() {
-            let on = !matches!(command, Command::Step);
+            let on = !matches!(command, Command::Forward(1));
             self.head_for(command, on);
         }
     }
@@ -277,7 +287,7 @@ impl State {
         if trials == 0 {
             let searched = !self.report.snapshot.probes.is_empty();
             return self.say(if searched {
-                "This scene has too many spheres for its trial steps to be kept."
+                "This frame's trial steps are not kept: they have too many spheres, or one came back to it."
             } else {
                 "This frame has searched for no collision time: c goes to a collision."
             });
@@ -310,8 +320,19 @@ impl State {
         true
     }
 
+    /// Goes on until what was waited for last comes again.
+    fn until_again(&mut self) {
+        match self.until {
+            Some(stop) => self.advance(Command::Until(stop)),
+            None => self.say("Nothing was waited for yet; u asks until what to run."),
+        }
+    }
+
     fn order(&mut self, text: &str) {
-        match prompt::read(text) {
+        let stage = &self.current.stage;
+        let (spheres, walls) = (stage.radii.len(), stage.walls.len());
+        let named = Named { spheres, walls, selected: self.view_settings.selected };
+        match prompt::read(text, named) {
             Ok(None) => {}
             Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
@@ -319,6 +340,10 @@ impl State {
             Ok(Some(Order::Goto(t))) => {
                 self.head_for(Command::Goto(t), true);
                 self.say("On the way to the first frame that ends then or later; Esc stops.");
+            }
+            Ok(Some(Order::Until(stop))) => {
+                self.until = Some(stop);
+                self.until_again();
             }
             Ok(Some(Order::Hash)) => {
                 let snapshot = &self.report.snapshot;

@@ -6,6 +6,7 @@ use super::{
     comparison::Comparison,
     input::{Effect, Input, Setup},
     keys::pairs,
+    said,
     state::{Open, STALLED, State},
 };
 use crate::{
@@ -105,6 +106,13 @@ impl App {
         if self.state.report.obeyed == self.state.worker.sent() {
             self.state.running = self.state.report.activity == Activity::Running;
             self.state.has_target &= self.state.running;
+            self.state.settings = self.state.report.settings;
+        }
+        if let Some((count, said)) = &self.state.report.said
+            && before.said.is_none_or(|(before, _)| before < *count)
+        {
+            let sentence = said::sentence(said, self.state.report.snapshot.stage.duration);
+            self.state.tell(sentence);
         }
         if self.state.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
             self.state.tell(STALLED);
@@ -130,6 +138,7 @@ impl App {
             snapshot: trial.as_ref().unwrap_or(snapshot),
             pace: pace(&self.state.report),
             ticks: &self.state.report.ticks,
+            kept: self.state.report.kept,
             comparison: self.state.comparison.as_ref().map(Comparison::shown),
             view_settings: &self.state.view_settings,
             popup: match &self.state.open {
@@ -151,6 +160,7 @@ impl App {
 
 fn pace(report: &Report) -> Pace {
     let mode = match report.activity {
+        _ if report.kept.is_past => Mode::Back,
         Activity::Running => Mode::Run,
         Activity::Paused => Mode::Pause,
         Activity::Stalled => Mode::Stalled,

@@ -12,6 +12,7 @@
 //! | `keys`, `action` | which key does what |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
 //! | `comparison` | the exact run beside the one shown |
 
 mod act;
@@ -25,8 +26,10 @@ mod knobs;
 mod loading;
 mod opening;
 mod prompt;
+mod said;
 mod scene_list;
 mod state;
+mod until;
 mod view_settings;
 
 pub use action::{Action, Direction};

@@ -18,7 +18,7 @@ use crate::{
     printable,
     scene::{self, Settings},
     view::{Colors, Marker, ViewSettings},
-    worker::{Activity, Command, Ending, Errands, Notify, Report, Worker},
+    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
 
 /// What to do where a run cannot go on; why it cannot is on the screen already.
@@ -46,6 +46,8 @@ pub(super) struct State {
     pub(super) running: bool,
     /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
     pub(super) has_target: bool,
+    /// What was waited for last.
+    pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.
     pub(super) comparison: Option<Comparison>,
     /// The exact run shown before, while its thread ends.
@@ -87,6 +89,7 @@ impl State {
             speed: 1.0,
             running: false,
             has_target: false,
+            until: None,
             comparison: None,
             ending: None,
             loading: None,
@@ -153,6 +156,7 @@ impl State {
         self.run(running);
         view_settings::whole_scene(&mut self.view_settings);
         self.view_settings.selected = None;
+        self.until = None;
         if self.comparison.is_some() {
             self.compare();
         }

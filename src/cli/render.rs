@@ -14,7 +14,7 @@ use super::signals::Signals;
 use crate::audit::Watch;
 use crate::physics::{Class, Progress, Simulation, Stall, State};
 use crate::scene::{self, Opened, Settings};
-use crate::snapshot::{Snapshot, Stage, Ticks};
+use crate::snapshot::{Kept, Snapshot, Stage, Ticks};
 use crate::view::{self, Mode, Pace, Popup, Screen, ViewSettings};
 use crate::{app, frame};
 
@@ -116,6 +116,7 @@ fn draw(shown: &Shown, view_settings: &ViewSettings, (columns, rows): (u16, u16)
         snapshot: &shown.snapshot,
         pace: Pace { mode, wanted: 1.0, reached: None },
         ticks: &shown.ticks,
+        kept: Kept::default(),
         comparison: None,
         view_settings,
         popup: Popup::None,

@@ -39,6 +39,14 @@ impl Log {
         }
     }
 
+    /// Memory that it takes beside its own size, bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.contacts)
+            + size_of_val(&*self.probes)
+            + size_of_val(&*self.events)
+            + size_of_val(&*self.resting)
+    }
+
     /// Compares what rests after a frame, as its contacts (sorted by key) tell, with what rested before: one `rest` row
     /// when a rest begins, one row of `release` when it ends.
     pub(crate) fn follow_rests(&mut self, release: impl Fn(Key) -> Contact) {

@@ -75,6 +75,13 @@ pub(super) trait Engine {
     fn continue_with(&mut self, transient: &[DVec3]);
     /// The state for another method to begin with: pending impulses are already in its velocities.
     fn hand_over(&self, model: &Model) -> State;
+    /// Between frames: a copy without scratch memory and without the inside of the last frame; it goes on bit for bit,
+    /// once [`Engine::wake`] has given it its memory back.
+    fn keep(&self) -> Self;
+    /// Gives a kept copy the memory that it needs to go on.
+    fn wake(&mut self, model: &Model);
+    /// Memory that a kept copy takes beside its own size, bytes, as near as its parts tell.
+    fn bytes(&self) -> usize;
 }
 
 /// What turning a knob changes.

@@ -61,5 +61,5 @@ pub use events::rest_reason::RestReason;
 pub use method::{Description, Effect, Knobs, Progress, Until, knobs};
 pub use model::{ContactLaw, Method, Model, Scene, Settings};
 pub use requirements::{PairSearch, Requirements};
-pub use simulation::{Simulation, describe, deviations, slack};
+pub use simulation::{Keyframe, Simulation, describe, deviations, slack};
 pub use state::{Stall, StallKind, State, Tallies};

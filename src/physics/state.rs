@@ -16,6 +16,11 @@ pub struct State {
 }
 
 impl State {
+    /// Memory that it takes beside its own size, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.x) + size_of_val(&*self.v)
+    }
+
     /// 64-bit FNV-1a (standard offset basis and prime) over the little-endian bytes of t, then of x, then of v, in
     /// index order: equal hashes mean equal bits.
     pub fn hash(&self) -> u64 {

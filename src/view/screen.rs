@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::snapshot::{Ghost, Snapshot, Ticks, Trade};
+use crate::snapshot::{Ghost, Kept, Snapshot, Ticks, Trade};
 
 /// Everything one frame shows.
 #[derive(Debug, Clone, Copy)]
@@ -13,6 +13,8 @@ pub struct Screen<'a> {
     pub pace: Pace,
     /// Collisions so far.
     pub ticks: &'a Ticks,
+    /// Which frames one can go to.
+    pub kept: Kept,
     /// The exact run beside this one, where it was asked for.
     pub comparison: Option<Comparison<'a>>,
     /// What the user chose to look at, and how.
@@ -52,6 +54,8 @@ pub enum Mode {
     Run,
     /// Paused at the newest frame.
     Pause,
+    /// Paused at an earlier frame, or on the way there.
+    Back,
     /// The run cannot go on.
     Stalled,
 }

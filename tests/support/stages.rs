@@ -6,7 +6,7 @@ use std::sync::Arc;
 use carom::random::SplitMix64;
 use carom::{
     geometry::{Bounds, Parallelogram},
-    snapshot::{Alarm, Class, Contact, ContactLaw, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
+    snapshot::{Alarm, Class, Contact, ContactLaw, Ghost, Kept, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
     view::{Comparison, Mode, Pace, Popup, Screen, ViewSettings},
 };
 use glam::{DVec3, dvec3};
@@ -16,6 +16,7 @@ use glam::{DVec3, dvec3};
 pub(crate) struct Scene {
     pub(crate) snapshot: Snapshot,
     pub(crate) ticks: Ticks,
+    pub(crate) kept: Kept,
     pub(crate) view_settings: ViewSettings,
     pub(crate) pace: Pace,
     /// The exact run beside it.
@@ -41,6 +42,7 @@ impl Scene {
             snapshot: &self.snapshot,
             pace: self.pace,
             ticks: &self.ticks,
+            kept: self.kept,
             comparison: self.comparison.as_ref().map(|(ghost, trade)| Comparison { ghost: ghost.as_ref(), trade }),
             view_settings: &self.view_settings,
             popup: Popup::None,
@@ -107,7 +109,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
     };
     let ticks = Ticks { span: 20.0, impacts: vec![0; 80] };
     let pace = Pace { mode: Mode::Pause, wanted: 1.0, reached: None };
-    Scene { snapshot, ticks, view_settings: ViewSettings::default(), pace, comparison: None }
+    Scene { snapshot, ticks, kept: Kept::default(), view_settings: ViewSettings::default(), pace, comparison: None }
 }
 
 /// Changes what is constant.

@@ -22,7 +22,7 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
         ],
     ),
     ("terminal", &["app", "frame", "printable", "scene", "view"]),
-    ("app", &["geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
+    ("app", &["format", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
     ("explain", &["format", "snapshot"]),
     ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
     ("view", &["explain", "format", "snapshot"]),

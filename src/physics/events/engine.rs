@@ -23,7 +23,7 @@ const FEW: usize = 64;
 
 /// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
 /// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
-const MOST_IDLE: f64 = (1_u64 << 30) as f64;
+pub(in crate::physics) const MOST_IDLE: f64 = (1_u64 << 30) as f64;
 
 /// Approaches that a frame keeps, from its first on.
 const MOST_APPROACHES: usize = 1000;
@@ -180,6 +180,22 @@ impl<D: Detector> EventDriven<D> {
     /// The state at `t` (s) within the last frame.
     pub(crate) fn at(&self, model: &Model, t: f64) -> State {
         self.mechanics.state_at(model, t.clamp(self.frame.time - self.frame.step, self.frame.time))
+    }
+
+    /// A copy that goes on bit for bit and knows nothing of the inside of the last frame.
+    pub(super) fn keep(&self) -> EventDriven<D> {
+        let EventDriven { settings, frame, schedule, mechanics } = self;
+        EventDriven {
+            settings: *settings,
+            frame: *frame,
+            schedule: schedule.clone(),
+            mechanics: mechanics.since(frame.time),
+        }
+    }
+
+    /// Memory that it takes beside its own size, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.schedule.bytes() + self.mechanics.bytes()
     }
 
     /// Why a contact rests; none if it does not.

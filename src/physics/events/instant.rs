@@ -59,6 +59,11 @@ pub(super) struct Instant {
 }
 
 impl Instant {
+    /// How many contacts it remembers.
+    pub(super) fn entries(&self) -> usize {
+        self.chain.len() + self.releases.len()
+    }
+
     /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
     pub(crate) fn has_collapsed(&self, key: Key) -> bool {
         self.collapsed && self.chain.get(&key).is_some_and(|&(count, _)| count > SHARE)

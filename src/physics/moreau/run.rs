@@ -161,6 +161,36 @@ impl Engine for Moreau {
     fn hand_over(&self, _: &Model) -> State {
         self.end.clone()
     }
+
+    /// The frame's end and what held there; the start is a frame's inside, all else scratch.
+    fn keep(&self) -> Moreau {
+        Moreau {
+            settings: self.settings,
+            start: State::default(),
+            end: self.end.clone(),
+            free: Vec::new(),
+            solution: Vec::new(),
+            carried: self.carried.clone(),
+            search: self.search.kept(),
+            rows: Vec::new(),
+            sunk: Vec::new(),
+            solver: self.solver.kept(),
+            stage: Stage::Between,
+            step: self.step,
+        }
+    }
+
+    fn wake(&mut self, model: &Model) {
+        self.start = self.end.clone();
+        self.free = vec![DVec3::ZERO; model.len()];
+        self.solution = vec![DVec3::ZERO; model.len()];
+        self.search.wake(model);
+        self.sunk = vec![0.0; model.len()];
+    }
+
+    fn bytes(&self) -> usize {
+        self.end.bytes() + size_of_val(&*self.carried)
+    }
 }
 
 impl Moreau {

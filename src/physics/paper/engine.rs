@@ -92,7 +92,8 @@ impl Engine for Paper {
     }
 
     fn trial(&self, model: &Model, step: f64) -> Option<State> {
-        if self.trial.is_some() {
+        // a run that was kept between two frames knows the start of none
+        if self.trial.is_some() || self.start.t == self.end.t {
             return None;
         }
         let mut state = self.start.clone();
@@ -119,5 +120,36 @@ impl Engine for Paper {
             state.v[kick.sphere] += kick.impulse * model.inverse_masses[kick.sphere];
         }
         state
+    }
+
+    /// The frame's end, what acts next, and the overlaps there; the start is a frame's inside, all else scratch.
+    fn keep(&self) -> Paper {
+        Paper {
+            settings: self.settings,
+            start: State::default(),
+            end: self.end.clone(),
+            kicks: Kicks::none(0),
+            next: self.next.kept(),
+            finder: self.finder.kept(),
+            allowed: Vec::new(),
+            trial: None,
+            stage: Stage::Complete,
+            residue: self.residue,
+            search: self.search,
+            probes: Vec::new(),
+            step: self.step,
+            watch: self.watch,
+        }
+    }
+
+    fn wake(&mut self, model: &Model) {
+        self.start = self.end.clone();
+        self.kicks = Kicks::none(model.len());
+        self.next.wake(model.len());
+        self.finder.wake(model);
+    }
+
+    fn bytes(&self) -> usize {
+        self.end.bytes() + size_of_val(self.next.list()) + size_of_val(&*self.finder.found)
     }
 }
