@@ -29,6 +29,8 @@ pub mod app;
 pub mod audit;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "cli")]
+pub mod config;
 pub mod export;
 pub mod format;
 #[cfg(feature = "tui")]

@@ -2,6 +2,8 @@
 
 #[path = "cli/bounds.rs"]
 mod bounds;
+#[path = "cli/config.rs"]
+mod config;
 #[path = "cli/files.rs"]
 mod files;
 #[path = "cli/outputs.rs"]

@@ -3,7 +3,7 @@
 use super::{
     action::{Action, Direction},
     input::Effect,
-    keys::{self, Code, Key, pairs},
+    keys::{Code, Key, pairs},
     knobs,
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
@@ -25,7 +25,7 @@ impl State {
         (self.answer, self.news) = (None, None);
         // These work whatever is open and is being typed into.
         if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
-            keys::action(key).filter(|_| key.ctrl)
+            self.keymap.action(key).filter(|_| key.ctrl)
         {
             return self.act(action);
         }
@@ -76,7 +76,7 @@ impl State {
     }
 
     fn act_on(&mut self, key: Key) -> Effect {
-        match keys::action(key) {
+        match self.keymap.action(key) {
             Some(action) => self.act(action),
             None => Effect::DrawNow, // the message has vanished
         }
@@ -106,7 +106,7 @@ impl State {
             Action::Ghost => self.toggle_ghost(),
             Action::Prompt => self.open = Open::Prompt(String::new()),
             Action::Help => self.toggle_help(),
-            Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+            Action::Scenes => self.toggle_scenes(),
             Action::Close => self.close(),
             Action::NextViews => view_settings::next_views(&mut self.view_settings),
             Action::Pan(direction) => self.pan(direction),
@@ -192,6 +192,13 @@ impl State {
     /// The scenes there are: the file the program was started with, then the built-in ones.
     fn entries(&self) -> Vec<scene_list::Entry> {
         self.given.iter().map(|(entry, _)| entry.clone()).chain(scene_list::built_in()).collect()
+    }
+
+    fn toggle_scenes(&mut self) {
+        self.open = match self.open {
+            Open::Scenes(_) => Open::Nothing,
+            _ => Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+        };
     }
 
     fn toggle_help(&mut self) {

@@ -71,6 +71,24 @@ pub enum Action {
     Close,
 }
 
+impl Action {
+    /// Its name in a configuration: `step`, `pan_left`.
+    pub fn name(self) -> String {
+        let mut name = String::new();
+        for c in format!("{self:?}").chars().filter(|c| *c != ')') {
+            match c {
+                '(' => {}
+                c if c.is_ascii_uppercase() => {
+                    name.extend((!name.is_empty()).then_some('_'));
+                    name.push(c.to_ascii_lowercase());
+                }
+                c => name.push(c),
+            }
+        }
+        name
+    }
+}
+
 /// Where the view moves to on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {

@@ -6,7 +6,7 @@ use super::{
     comparison::Comparison,
     input::{Effect, Input, Setup},
     keys::pairs,
-    state::{Open, STALLED, State},
+    state::{Open, State},
 };
 use crate::{
     snapshot::Ghost,
@@ -102,7 +102,7 @@ impl App {
             self.state.has_target &= self.state.running;
         }
         if self.state.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
-            self.state.tell(STALLED);
+            self.state.tell(self.state.stalled());
         }
         if self.state.report.obeyed == before.obeyed && self.state.report.activity == before.activity {
             Effect::Draw

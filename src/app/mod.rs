@@ -9,7 +9,8 @@
 //! | `input` | what the application starts with, what reaches it, what it asks for |
 //! | `application` | the application as its owner sees it: inputs in, a buffer out |
 //! | `state` | what it holds, and the steps that keys and news are made of |
-//! | `keys`, `action` | which key does what |
+//! | `keys`, `action` | the keys, the table of what each does, and the actions |
+//! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
 //! | `comparison` | the exact run beside the one shown |
@@ -20,6 +21,8 @@ mod application;
 mod comparison;
 mod current;
 mod input;
+mod key_name;
+mod keymap;
 mod keys;
 mod knobs;
 mod loading;
@@ -32,4 +35,5 @@ mod view_settings;
 pub use action::{Action, Direction};
 pub use application::App;
 pub use input::{Effect, Input, Setup};
-pub use keys::{Binding, Code, Key, action, help_rows, hints, table};
+pub use keymap::{Clash, Keymap, help_rows, hints};
+pub use keys::{Binding, Code, Key, table};

@@ -19,6 +19,7 @@ mod accuracy;
 mod arguments;
 mod check;
 mod completions;
+mod defaults;
 mod failure;
 mod judge;
 mod list;
@@ -78,6 +79,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Render(arguments) => render::render(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
         Command::Verify(arguments) => verify::verify(arguments, signals),
+        Command::Config => defaults::defaults(),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

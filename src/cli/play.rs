@@ -3,11 +3,12 @@
 use std::io::{self, IsTerminal};
 
 use super::accuracy;
-use super::arguments::Play;
+use super::arguments::{Color, Play};
 use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
-use crate::scene::{self, Opened, builtin};
+use crate::config::{self, Config};
+use crate::scene::{self, Opened};
 use crate::terminal::{self, Options, Outcome};
 use crate::text_mode::{self, Ending};
 
@@ -16,9 +17,10 @@ pub(super) fn play(arguments: &Play) -> Result<(), Failure> {
     if !text && !io::stdout().is_terminal() {
         return Err(Failure::Usage(terminal::Error::NoTerminal.to_string())); // before a scene is read for nothing
     }
-    let name = arguments.scene.as_deref().unwrap_or(builtin::ALL[0].name.as_ref());
+    let config = config::open(arguments.config.as_deref()).map_err(|error| Failure::Usage(error.to_string()))?;
+    let name = arguments.scene.as_deref().unwrap_or(&config.scene);
     let opened = scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
-    if text { tell(arguments, &opened) } else { show(arguments, opened) }
+    if text { tell(arguments, &opened) } else { show(arguments, config, opened) }
 }
 
 fn tell(arguments: &Play, opened: &Opened) -> Result<(), Failure> {
@@ -35,16 +37,19 @@ fn tell(arguments: &Play, opened: &Opened) -> Result<(), Failure> {
     }
 }
 
-fn show(arguments: &Play, opened: Opened) -> Result<(), Failure> {
+fn show(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure> {
     let (settings, message) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, None)?;
     let options = Options {
         opened,
         settings,
         message,
         paused: arguments.paused,
-        marker: arguments.display.marker.map(Into::into),
-        color: arguments.display.color.depth(),
-        bandwidth: arguments.bandwidth,
+        marker: arguments.display.marker.map(Into::into).or(config.marker),
+        color: arguments.display.color.map_or(config.color, Color::depth),
+        bandwidth: arguments.bandwidth.or(config.bandwidth),
+        frame_rate: config.frame_rate,
+        inks: config.inks,
+        keymap: config.keymap,
     };
     match terminal::run(options) {
         Ok(Outcome::Quit) => Ok(()),

@@ -31,9 +31,6 @@ use crate::{
     frame::Encoder,
 };
 
-/// Most pictures per second of a running run.
-const RATE: u32 = 30;
-
 /// Behind a program that answers for the terminal nothing tells how thin the line to it is: most pictures and bytes per
 /// second there, as many as 256 kbit/s carry.
 const MULTIPLEXED: (u32, u64) = (10, 32_000);
@@ -61,14 +58,17 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     }
     let environment = Environment::ours();
     let escape_time = if environment.remote() { REMOTE } else { NEAR };
-    let (rate, budget) = if environment.multiplexed() { (MULTIPLEXED.0, Some(MULTIPLEXED.1)) } else { (RATE, None) };
-    let pacer = Pacer::new(rate, options.bandwidth.or(budget));
+    let (most, budget) =
+        if environment.multiplexed() { (MULTIPLEXED.0, Some(MULTIPLEXED.1)) } else { (u32::MAX, None) };
+    let pacer = Pacer::new(options.frame_rate.min(most), options.bandwidth.or(budget));
     let setup = Setup {
         opened: options.opened,
         settings: options.settings,
         paused: options.paused,
         marker: environment.marker(options.marker),
         colors: environment.colors(options.color),
+        inks: options.inks,
+        keymap: options.keymap,
     };
     let (sender, events) = mpsc::channel();
     let post = Post(sender);

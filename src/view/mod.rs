@@ -10,7 +10,7 @@
 //! | `screen` | everything that a frame shows |
 //! | `draw` | one frame, each part in its place |
 //! | `layout` | what goes where, by the size of the screen |
-//! | `sheet`, `glyphs`, `palette` | text in cells; its signs and its colours |
+//! | `sheet`, `glyphs`, `palette`, `ink` | text in cells; its signs and its colours; the user's own colours |
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
@@ -21,6 +21,7 @@ mod column;
 mod draw;
 mod glyphs;
 mod help;
+mod ink;
 mod inspector;
 mod layout;
 mod overlays;
@@ -39,4 +40,5 @@ mod timeline;
 mod trade;
 
 pub use draw::{cursor, draw, help_scroll_limit, visible_span};
+pub use ink::{Background, Ink, Inks, MOST_TURNS};
 pub use screen::{Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};

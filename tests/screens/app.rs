@@ -6,11 +6,11 @@ use std::{
 };
 
 use carom::{
-    app::{Action, App, Code, Effect, Input, Key, Setup, table},
+    app::{Action, App, Code, Effect, Input, Key, Keymap, Setup, table},
     physics::{Progress, Settings, Simulation, Until},
     scene,
     snapshot::{Snapshot, Stage},
-    view::{Colors, Marker, Views},
+    view::{Colors, Inks, Marker, Views},
     worker::{Activity, Command, Job, Notify, Worker},
 };
 use ratatui::{buffer::Buffer, layout::Rect};
@@ -26,17 +26,23 @@ fn tell(sender: mpsc::Sender<()>) -> Notify {
 }
 
 /// The application as a user sees it.
-struct User {
-    app: App,
+pub(crate) struct User {
+    pub(crate) app: App,
     news: mpsc::Receiver<()>,
     screen: Buffer,
 }
 
 impl User {
-    fn at(scene: &str, paused: bool) -> User {
+    pub(crate) fn at(scene: &str, paused: bool) -> User {
+        User::bound(scene, paused, Keymap::default())
+    }
+
+    /// With keys bound otherwise.
+    pub(crate) fn bound(scene: &str, paused: bool, keymap: Keymap) -> User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
-        let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16 };
+        let inks = Inks::default();
+        let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16, inks, keymap };
         let (sender, news) = mpsc::channel();
         let app = App::new(setup, tell(sender)).expect("there is a thread to be had");
         let mut user = User { app, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };
@@ -45,17 +51,17 @@ impl User {
     }
 
     /// A paused program.
-    fn with(scene: &str) -> User {
+    pub(crate) fn with(scene: &str) -> User {
         User::at(scene, true)
     }
 
-    fn look(&mut self) {
+    pub(crate) fn look(&mut self) {
         self.screen.reset();
         self.app.draw(&mut self.screen);
     }
 
     /// Takes the worker's news until it is as wanted.
-    fn until(&mut self, what: &str, wanted: impl Fn(&App) -> bool) {
+    pub(crate) fn until(&mut self, what: &str, wanted: impl Fn(&App) -> bool) {
         while !wanted(&self.app) {
             self.news.recv_timeout(PATIENCE).unwrap_or_else(|_| panic!("never {what}"));
             assert!(!matches!(self.app.handle(Input::News), Effect::Fail(_)));
@@ -63,19 +69,19 @@ impl User {
         self.look();
     }
 
-    fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         self.until("settled", App::settled);
     }
 
     /// Presses a key and waits for what comes of it.
-    fn press(&mut self, key: Key) -> Effect {
+    pub(crate) fn press(&mut self, key: Key) -> Effect {
         let effect = self.app.handle(Input::Key(key));
         self.settle();
         effect
     }
 
     /// Types, `\n` for Enter and `\x1b` for Esc.
-    fn type_in(&mut self, keys: &str) {
+    pub(crate) fn type_in(&mut self, keys: &str) {
         for c in keys.chars() {
             let key = match c {
                 '\n' => Key::plain(Code::Enter),
@@ -86,17 +92,17 @@ impl User {
         }
     }
 
-    fn snapshot(&self) -> &Snapshot {
+    pub(crate) fn snapshot(&self) -> &Snapshot {
         &self.app.report().snapshot
     }
 
     /// Row `y` of the screen; negative: from the bottom.
-    fn row(&self, y: i32) -> String {
+    pub(crate) fn row(&self, y: i32) -> String {
         let y = y.rem_euclid(24) as u16;
         (0..80).map(|x| self.screen[(x, y)].symbol()).collect()
     }
 
-    fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         (0..24).map(|y| self.row(y) + "\n").collect()
     }
 }
