@@ -4,6 +4,8 @@
 mod config;
 #[path = "terminal/input.rs"]
 mod input;
+#[path = "terminal/mouse.rs"]
+mod mouse;
 #[path = "terminal/pacing.rs"]
 mod pacing;
 #[allow(dead_code)] // each test crate uses what it needs

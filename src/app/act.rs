@@ -118,6 +118,7 @@ impl State {
             Action::SelectPrevious => self.select(false),
             Action::Inspector => self.toggle_inspector(),
             Action::NextOverlays => self.next_overlays(),
+            Action::Mouse => self.toggle_mouse(),
         }
         Effect::DrawNow
     }
@@ -134,7 +135,7 @@ impl State {
     }
 
     /// Magnifies by `factor`, or says `at_the_end` where it is already at the end.
-    fn zoom(&mut self, factor: f64, at_the_end: &str) {
+    pub(super) fn zoom(&mut self, factor: f64, at_the_end: &str) {
         if !view_settings::zoom(&mut self.view_settings, factor) {
             self.say(at_the_end);
         }
@@ -214,7 +215,7 @@ impl State {
         view_settings::pan(&mut self.view_settings, direction, span);
     }
 
-    fn let_go(&mut self) {
+    pub(super) fn let_go(&mut self) {
         let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i));
         view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x.copied());
     }
@@ -255,16 +256,19 @@ impl State {
         });
     }
 
+    /// Goes to the time `t`, s.
+    pub(super) fn goto(&mut self, t: f64) {
+        self.head_for(Command::Goto(t), true);
+        self.say("On the way to the first frame that ends then or later; Esc stops.");
+    }
+
     fn order(&mut self, text: &str) {
         match prompt::read(text) {
             Ok(None) => {}
             Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
-            Ok(Some(Order::Goto(t))) => {
-                self.head_for(Command::Goto(t), true);
-                self.say("On the way to the first frame that ends then or later; Esc stops.");
-            }
+            Ok(Some(Order::Goto(t))) => self.goto(t),
             Ok(Some(Order::Hash)) => {
                 let snapshot = &self.report.snapshot;
                 self.say(format!("t={:?} hash={:016x}", snapshot.t, snapshot.hash()));

@@ -61,6 +61,8 @@ pub enum Action {
     Prompt,
     /// Show the keys, or hide them.
     Help,
+    /// Have the terminal report the mouse, or leave it to the terminal.
+    Mouse,
     /// Draw everything again.
     Repaint,
     /// Give the terminal back to the shell for a while.

@@ -32,6 +32,7 @@ impl App {
     pub fn handle(&mut self, input: Input) -> Effect {
         match input {
             Input::Key(key) => self.state.key(key),
+            Input::Mouse(mouse) => self.state.mouse(mouse, |state, show| with_screen(state, show)),
             Input::Paste(text) => self.state.paste(&text),
             Input::News => self.news(),
         }
@@ -41,6 +42,11 @@ impl App {
     pub fn draw(&mut self, buffer: &mut Buffer) {
         self.state.area = buffer.area;
         self.with_screen(|screen| view::draw(screen, buffer.area, buffer));
+    }
+
+    /// Whether the terminal shall report the mouse.
+    pub fn wants_mouse(&self) -> bool {
+        self.state.pointer.on
     }
 
     /// Where the terminal's cursor belongs in the picture last drawn; `None`: nowhere.
@@ -113,33 +119,38 @@ impl App {
 
     /// The screen as it stands, lent to `show`.
     fn with_screen<T>(&self, show: impl FnOnce(&Screen) -> T) -> T {
-        let message = self.state.message();
-        let (help, hints) = (pairs(&self.state.help), pairs(&self.state.hints));
-        let entries: Vec<(&str, &str)> = match &self.state.open {
-            Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
-            _ => Vec::new(),
-        };
-        show(&Screen {
-            snapshot: &self.state.report.snapshot,
-            pace: pace(&self.state.report),
-            ticks: &self.state.report.ticks,
-            comparison: self.state.comparison.as_ref().map(Comparison::shown),
-            view_settings: &self.state.view_settings,
-            popup: match &self.state.open {
-                Open::Nothing => Popup::None,
-                Open::Prompt(text) => Popup::Prompt { text },
-                Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
-                Open::Scenes(list) => Popup::Scenes {
-                    filter: list.filter(),
-                    filtering: list.filtering(),
-                    entries: &entries,
-                    cursor: list.cursor(),
-                },
-            },
-            message: message.as_deref(),
-            hints: &hints,
-        })
+        with_screen(&self.state, show)
     }
+}
+
+/// The screen of a state, lent to `show`.
+fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
+    let message = state.message();
+    let (help, hints) = (pairs(&state.help), pairs(&state.hints));
+    let entries: Vec<(&str, &str)> = match &state.open {
+        Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
+        _ => Vec::new(),
+    };
+    show(&Screen {
+        snapshot: &state.report.snapshot,
+        pace: pace(&state.report),
+        ticks: &state.report.ticks,
+        comparison: state.comparison.as_ref().map(Comparison::shown),
+        view_settings: &state.view_settings,
+        popup: match &state.open {
+            Open::Nothing => Popup::None,
+            Open::Prompt(text) => Popup::Prompt { text },
+            Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
+            Open::Scenes(list) => Popup::Scenes {
+                filter: list.filter(),
+                filtering: list.filtering(),
+                entries: &entries,
+                cursor: list.cursor(),
+            },
+        },
+        message: message.as_deref(),
+        hints: &hints,
+    })
 }
 
 fn pace(report: &Report) -> Pace {

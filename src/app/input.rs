@@ -1,6 +1,6 @@
 //! What the application starts with, what reaches it, and what it asks for in turn.
 
-use super::{keymap::Keymap, keys::Key};
+use super::{keymap::Keymap, keys::Key, mouse::Mouse};
 use crate::{
     scene::{Opened, Settings},
     view::{Colors, Inks, Marker},
@@ -30,6 +30,8 @@ pub struct Setup {
 pub enum Input {
     /// A key was pressed.
     Key(Key),
+    /// The mouse was used.
+    Mouse(Mouse),
     /// Text was pasted: taken where text is typed, and nowhere else.
     Paste(String),
     /// The worker has called `notify`.

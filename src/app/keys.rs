@@ -147,6 +147,7 @@ const TABLE: &[Binding] = &[
     bind(&[K::char('Z')], Action::ZoomOut, "zoom in, out"),
     bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
     bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25"),
+    bind(&[K::char('%')], Action::Mouse, "mouse on, off"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
     bind(&[K::ctrl('z')], Action::Suspend, "suspend"),
     bind(&[K::plain(Code::Escape)], Action::Close, "close what is open"),

@@ -13,6 +13,7 @@
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `mouse`, `pointer` | the mouse, and what it does |
 //! | `comparison` | the exact run beside the one shown |
 
 mod act;
@@ -26,7 +27,9 @@ mod keymap;
 mod keys;
 mod knobs;
 mod loading;
+mod mouse;
 mod opening;
+mod pointer;
 mod prompt;
 mod scene_list;
 mod state;
@@ -37,3 +40,4 @@ pub use application::App;
 pub use input::{Effect, Input, Setup};
 pub use keymap::{Clash, Keymap, help_rows, hints};
 pub use keys::{Binding, Code, Key, table};
+pub use mouse::{Gesture, Mouse};

@@ -11,6 +11,7 @@ use super::{
     input::Setup,
     keymap::Keymap,
     loading::Loading,
+    mouse::Pointer,
     scene_list::{self, SceneList},
     view_settings,
 };
@@ -58,6 +59,7 @@ pub(super) struct State {
     /// What happened unasked and is worth a line, until the next key.
     pub(super) news: Option<String>,
     pub(super) keymap: Keymap,
+    pub(super) pointer: Pointer,
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
@@ -100,6 +102,7 @@ impl State {
             help: setup.keymap.help_rows(),
             hints: setup.keymap.hints(),
             keymap: setup.keymap,
+            pointer: Pointer::default(),
         };
         state.warn();
         if !setup.paused {

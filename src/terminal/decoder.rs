@@ -8,6 +8,7 @@
 use std::time::Duration;
 
 use super::{
+    mouse,
     paste::{CTRL_C, Paste},
     reply::{self, Reply},
     sequence,
@@ -254,6 +255,7 @@ impl Decoder {
             b'@'..=b'~' if parameters.len() > PARAMETERS => {}
             b'@'..=b'~' => {
                 self.inputs.extend(sequence::key(&parameters, byte).map(Input::Key));
+                self.inputs.extend(mouse::mouse(&parameters, byte).map(Input::Mouse));
                 self.replies.extend(reply::reply(&parameters, byte));
             }
             _ => self.begin(byte, false),

@@ -18,7 +18,7 @@ use super::{
     backlog::{Backlog, backlog},
     detect::Environment,
     event::{Event, Post},
-    input,
+    input, mouse,
     outcome::{Error, Options, Outcome},
     pacer::{Next, Pacer, Return},
     reply::{REQUEST, Reply},
@@ -81,7 +81,8 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let (entrance, backlog) = backlog(post);
     input::start(escape_time, entrance)?;
     let (encoder, clock) = (Encoder::new(), Instant::now());
-    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock }.run()
+    let mouse = (false, 0);
+    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock, mouse }.run()
 }
 
 /// The application and its terminal.
@@ -95,6 +96,8 @@ struct Driver {
     pacer: Pacer,
     encoder: Encoder,
     clock: Instant,
+    /// Whether the terminal reports the mouse since it was taken for that time.
+    mouse: (bool, u64),
 }
 
 /// Whether, and how, the loop ends.
@@ -275,13 +278,25 @@ impl Driver {
         self.pacer.urgent(self.clock.elapsed());
     }
 
+    /// What has the terminal report the mouse or not, as the application wants; it was taken `takes` times.
+    fn mouse_mode(&mut self, takes: u64) -> &'static [u8] {
+        let reports = self.mouse.0 && self.mouse.1 == takes; // giving the terminal back turned them off
+        let wanted = self.app.wants_mouse();
+        self.mouse = (wanted, takes);
+        match (reports, wanted) {
+            (false, true) => mouse::ON,
+            (true, false) => mouse::OFF,
+            _ => b"",
+        }
+    }
+
     fn draw(&mut self) {
         self.pacer.drawn(self.clock.elapsed());
         let takes = self.guard.session().takes();
         let (columns, rows) = self.environment.size(self.guard.session().size(io::stdout().as_fd()));
         let mut buffer = Buffer::empty(Rect::new(0, 0, columns.min(LARGEST.0), rows.min(LARGEST.1)));
         self.app.draw(&mut buffer);
-        let picture = self.encoder.encode(&buffer, self.app.cursor());
+        let picture = [self.mouse_mode(takes), &self.encoder.encode(&buffer, self.app.cursor())].concat();
         if !picture.is_empty() {
             let now = self.clock.elapsed();
             let asks = self.pacer.sending(now, picture.len() + REQUEST.len());

@@ -13,6 +13,7 @@
 //! | `sheet`, `glyphs`, `palette`, `ink` | text in cells; its signs and its colours; the user's own colours |
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
+//! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
 //! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes` | a strip or popup each |
 
@@ -27,6 +28,7 @@ mod layout;
 mod overlays;
 mod palette;
 mod pane;
+mod pointing;
 mod probes;
 mod projection;
 mod prompt;
@@ -41,4 +43,5 @@ mod trade;
 
 pub use draw::{cursor, draw, help_scroll_limit, visible_span};
 pub use ink::{Background, Ink, Inks, MOST_TURNS};
+pub use pointing::{Aim, Target, contact_card, time_at, timeline_row};
 pub use screen::{Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};
