@@ -2,6 +2,8 @@
 
 #[path = "terminal/config.rs"]
 mod config;
+#[path = "terminal/detection.rs"]
+mod detection;
 #[path = "terminal/input.rs"]
 mod input;
 #[path = "terminal/mouse.rs"]

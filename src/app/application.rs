@@ -44,6 +44,11 @@ impl App {
         self.with_screen(|screen| view::draw(screen, buffer.area, buffer));
     }
 
+    /// Changes how things are shown, now that more is known of the terminal.
+    pub fn adapt(&mut self, change: impl FnOnce(&mut ViewSettings)) {
+        change(&mut self.state.view_settings);
+    }
+
     /// Whether the terminal shall report the mouse.
     pub fn wants_mouse(&self) -> bool {
         self.state.pointer.on

@@ -21,6 +21,7 @@ use super::{
     input, mouse,
     outcome::{Error, Options, Outcome},
     pacer::{Next, Pacer, Return},
+    questions::{Change, Questions},
     reply::{REQUEST, Reply},
     session::{Guard, Session},
     signals,
@@ -61,6 +62,7 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let (most, budget) =
         if environment.multiplexed() { (MULTIPLEXED.0, Some(MULTIPLEXED.1)) } else { (u32::MAX, None) };
     let pacer = Pacer::new(options.frame_rate.min(most), options.bandwidth.or(budget));
+    let questions = Questions::open(&environment, options.marker, options.color);
     let setup = Setup {
         opened: options.opened,
         settings: options.settings,
@@ -81,8 +83,8 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let (entrance, backlog) = backlog(post);
     input::start(escape_time, entrance)?;
     let (encoder, clock) = (Encoder::new(), Instant::now());
-    let mouse = (false, 0);
-    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock, mouse }.run()
+    let (mouse, unasked) = ((false, 0), questions.bytes());
+    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock, mouse, questions, unasked }.run()
 }
 
 /// The application and its terminal.
@@ -98,6 +100,9 @@ struct Driver {
     clock: Instant,
     /// Whether the terminal reports the mouse since it was taken for that time.
     mouse: (bool, u64),
+    questions: Questions,
+    /// The questions in bytes, until they are sent.
+    unasked: Vec<u8>,
 }
 
 /// Whether, and how, the loop ends.
@@ -198,17 +203,29 @@ impl Driver {
 
     fn replied(&mut self) {
         for (reply, at) in self.backlog.replies() {
-            match reply {
-                Reply::Attributes => {
-                    if let Some(Return { silence, skipped }) = self.pacer.replied(at.duration_since(self.clock)) {
-                        let seconds = silence.as_secs_f64();
-                        let pictures = if skipped == 1 { "frame was" } else { "frames were" };
-                        self.app.tell(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
-                        self.pacer.urgent(self.clock.elapsed());
-                    }
-                }
+            if let Some(change) = self.questions.hear(reply) {
+                self.adapt(change);
+            }
+            if reply == Reply::Attributes
+                && let Some(Return { silence, skipped }) = self.pacer.replied(at.duration_since(self.clock))
+            {
+                let seconds = silence.as_secs_f64();
+                let pictures = if skipped == 1 { "frame was" } else { "frames were" };
+                self.app.tell(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
+                self.pacer.urgent(self.clock.elapsed());
             }
         }
+    }
+
+    /// Does what the terminal can do, once it has said so.
+    fn adapt(&mut self, change: Change) {
+        match change {
+            Change::Marker(marker) => self.app.adapt(|settings| settings.marker = marker),
+            Change::Colors(colors) => self.app.adapt(|settings| settings.colors = colors),
+            Change::Background(background) => self.app.adapt(|settings| settings.background = background),
+            Change::Brackets(known) => return self.encoder.bracket(known),
+        }
+        self.pacer.changed(self.clock.elapsed());
     }
 
     /// Leaves the screen, and waits for answers under way: the next reader of the terminal would take them for keys. Only
@@ -242,7 +259,7 @@ impl Driver {
 
     /// Takes note of replies of which nothing will be said.
     fn count_replies(&mut self) {
-        for (_, at) in self.backlog.replies() {
+        for (_, at) in self.backlog.replies().into_iter().filter(|(reply, _)| *reply == Reply::Attributes) {
             let _ = self.pacer.replied(at.duration_since(self.clock));
         }
     }
@@ -296,7 +313,8 @@ impl Driver {
         let (columns, rows) = self.environment.size(self.guard.session().size(io::stdout().as_fd()));
         let mut buffer = Buffer::empty(Rect::new(0, 0, columns.min(LARGEST.0), rows.min(LARGEST.1)));
         self.app.draw(&mut buffer);
-        let picture = [self.mouse_mode(takes), &self.encoder.encode(&buffer, self.app.cursor())].concat();
+        let picture = self.encoder.encode(&buffer, self.app.cursor());
+        let picture = [&std::mem::take(&mut self.unasked), self.mouse_mode(takes), &picture].concat();
         if !picture.is_empty() {
             let now = self.clock.elapsed();
             let asks = self.pacer.sending(now, picture.len() + REQUEST.len());

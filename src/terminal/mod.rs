@@ -13,7 +13,7 @@
 //! | `session`, `signals` | the terminal's modes, put back whatever happens; signals as events |
 //! | `writer`, `pacer` | pictures to the terminal, and when the next is due |
 //! | `line`, `budget` | how many pictures may be under way, and how many bytes per second |
-//! | `detect` | what the environment says of colours and characters |
+//! | `detect`, `questions` | what the environment says of colours and characters, and what the terminal answers |
 
 mod backlog;
 mod budget;
@@ -27,6 +27,7 @@ mod mouse;
 mod outcome;
 mod pacer;
 mod paste;
+mod questions;
 mod reply;
 mod sequence;
 mod session;
