@@ -12,6 +12,8 @@ mod outputs;
 mod program;
 #[path = "cli/runs.rs"]
 mod runs;
+#[path = "cli/talk.rs"]
+mod talk;
 #[path = "cli/text.rs"]
 mod text;
 #[path = "cli/verify.rs"]

@@ -4,6 +4,8 @@
 mod config;
 #[path = "terminal/detection.rs"]
 mod detection;
+#[path = "terminal/dumb.rs"]
+mod dumb;
 #[path = "terminal/input.rs"]
 mod input;
 #[path = "terminal/mouse.rs"]

@@ -44,6 +44,16 @@ impl App {
         self.with_screen(|screen| view::draw(screen, buffer.area, buffer));
     }
 
+    /// What there is to say, until the next key.
+    pub fn said(&self) -> Option<String> {
+        self.state.message()
+    }
+
+    /// Whether the run goes on and on, to no target.
+    pub fn runs_freely(&self) -> bool {
+        self.state.running && !self.state.has_target
+    }
+
     /// Changes how things are shown, now that more is known of the terminal.
     pub fn adapt(&mut self, change: impl FnOnce(&mut ViewSettings)) {
         change(&mut self.state.view_settings);

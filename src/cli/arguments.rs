@@ -72,7 +72,7 @@ pub(super) struct Play {
     pub(super) scene: Option<OsString>,
     #[command(flatten)]
     pub(super) solver: Solver,
-    /// Start paused
+    /// Start paused; with --text, every line of standard input is keys then
     #[arg(long)]
     pub(super) paused: bool,
     #[command(flatten)]

@@ -13,6 +13,7 @@
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
+//! | `talk`, `lines` | the application without a screen: lines are keys |
 //! | the rest | one command each |
 
 mod accuracy;
@@ -22,6 +23,7 @@ mod completions;
 mod defaults;
 mod failure;
 mod judge;
+mod lines;
 mod list;
 mod man;
 mod measure;
@@ -35,6 +37,7 @@ mod rows;
 mod run;
 mod show;
 mod signals;
+mod talk;
 mod target;
 mod verify;
 
