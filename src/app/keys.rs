@@ -162,38 +162,18 @@ const TABLE: &[Binding] = &[
     bind(&[K::char('Z')], Action::ZoomOut, "zoom in, out"),
     bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
     bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25, until rest"),
+    bind(&[K::char('%')], Action::Mouse, "mouse on, off"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
     bind(&[K::ctrl('z')], Action::Suspend, "suspend"),
     bind(&[K::plain(Code::Escape)], Action::Close, "close what is open"),
 ];
 
 /// What the keys do in the scene list, for the help; `scene_list` obeys them.
-const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
+pub(super) const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
 
 /// The rows that have an effect in this program: with one method there is no next one.
 pub fn table() -> impl Iterator<Item = &'static Binding> {
     TABLE.iter().filter(|row| row.action != Action::NextMethod || Method::ALL.len() > 1)
-}
-
-/// What `key` does.
-pub fn action(key: Key) -> Option<Action> {
-    table().find(|row| row.keys.contains(&key)).map(|row| row.action)
-}
-
-/// The help: (keys, what they do). Neighbours in the table that do sides of the same share a row, a key each.
-pub fn help_rows() -> Vec<(String, &'static str)> {
-    let bindings: Vec<&Binding> = table().collect();
-    let rows = bindings.chunk_by(|a, b| a.does == b.does).map(|same| {
-        let each = if same.len() > 1 { 1 } else { usize::MAX };
-        let keys = same.iter().flat_map(|row| row.keys.iter().take(each));
-        (keys.map(Key::to_string).collect::<Vec<_>>().join(" "), same[0].does)
-    });
-    rows.chain([(IN_THE_LIST.0.to_owned(), IN_THE_LIST.1)]).collect()
-}
-
-/// The hint line, the most needed first: (key, a word).
-pub fn hints() -> Vec<(String, &'static str)> {
-    table().filter_map(|row| row.hint.map(|word| (row.keys[0].to_string(), word))).collect()
 }
 
 /// The rows of a table of keys as slices.
@@ -210,21 +190,6 @@ mod tests {
         let keys: Vec<Key> = table().flat_map(|row| row.keys).copied().collect();
         for (i, key) in keys.iter().enumerate() {
             assert!(!keys[..i].contains(key), "{key}");
-        }
-    }
-
-    #[test]
-    fn the_hints_lead_to_the_help_and_out_on_80_columns_and_all_labels_are_plain_ascii() {
-        let mut column = 0;
-        for (key, word) in hints() {
-            column += key.len() + 1 + word.len() + 2;
-            if word == "quit" {
-                break;
-            }
-        }
-        assert!(column <= 80, "`quit` ends in column {column}");
-        for (keys, does) in help_rows() {
-            assert!(keys.is_ascii() && does.is_ascii(), "{keys} {does}");
         }
     }
 

@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::accuracy;
-use super::arguments::{Display, Format, Render};
+use super::arguments::{Color, Display, Format, Render};
 use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
@@ -100,7 +100,7 @@ fn cut(whole: Snapshot, simulation: &Simulation, at: f64, impacts: u64) -> Snaps
 fn view_settings(display: &Display) -> ViewSettings {
     let ordinary = ViewSettings::default();
     ViewSettings {
-        colors: display.color.depth().unwrap_or(ordinary.colors),
+        colors: display.color.and_then(Color::depth).unwrap_or(ordinary.colors),
         marker: display.marker.map_or(ordinary.marker, Into::into),
         ..ordinary
     }
