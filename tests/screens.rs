@@ -6,7 +6,7 @@ use carom::{
     physics::Simulation,
     scene,
     snapshot::{Class, Snapshot, Stage},
-    view::{self, Colors, Marker, Overlays, Popup, Screen, ViewSettings, Views},
+    view::{self, CardView, Colors, Marker, Overlays, Popup, Screen, ViewSettings, Views},
 };
 use glam::{DVec3, dvec3};
 use proptest::{prelude::*, test_runner::RngSeed};
@@ -22,8 +22,14 @@ mod alarm;
 mod app;
 #[path = "screens/bounds.rs"]
 mod bounds;
+#[path = "screens/card.rs"]
+mod card;
+#[path = "screens/card_keys.rs"]
+mod card_keys;
 #[path = "screens/comparison.rs"]
 mod comparison;
+#[path = "screens/depth.rs"]
+mod depth;
 #[path = "screens/frames.rs"]
 mod frames;
 #[path = "screens/history.rs"]
@@ -134,7 +140,7 @@ fn the_prompt_and_news_look_as_stored() {
 #[test]
 fn the_inspector_in_place_of_the_side_view_looks_as_stored() {
     let mut scene = stages::wedge();
-    scene.view_settings.inspector = true;
+    scene.view_settings.inspector = Some(true);
     store("inspector", &scene.screen());
 }
 
@@ -207,7 +213,7 @@ fn everything(mut check: impl FnMut(&Screen)) {
             check(&Screen { message: Some("Wrote état.svg → here"), ..scene.screen() });
         }
     }
-    hostile.view_settings.inspector = true;
+    hostile.view_settings.inspector = Some(true);
     check(&hostile.screen());
 }
 
@@ -308,7 +314,8 @@ fn look() -> impl Strategy<Value = ViewSettings> {
             follow: flags[0],
             selected,
             overlays: Overlays { contacts: flags[1], normals: flags[2], velocities: flags[3], ids: flags[4] },
-            inspector: flags[5],
+            inspector: Some(flags[5]),
+            card: flags[4].then(|| CardView { cursor: 1, scroll: 3, probe: flags[1].then_some(2) }),
             ghost: flags[6],
             marker,
             colors,

@@ -15,9 +15,12 @@ use crate::{
     printable,
     scene::Settings,
     snapshot::Class,
-    view,
+    view::{self, CardView},
     worker::{Activity, Bodies, Command, Stop},
 };
+
+/// Rows by which PageUp and PageDown move a card.
+const CARD_PAGE: usize = 5;
 
 /// Longest text the prompt takes; more than any order needs.
 const PROMPT: usize = 200;
@@ -56,7 +59,11 @@ impl State {
                     None => return self.act_on(key),
                 }
             }
-            Open::Nothing => return self.act_on(key),
+            Open::Nothing => {
+                if !self.turns_card(key) {
+                    return self.act_on(key);
+                }
+            }
         }
         Effect::DrawNow
     }
@@ -126,7 +133,10 @@ impl State {
             Action::Follow => self.follow(),
             Action::SelectNext => self.select(true),
             Action::SelectPrevious => self.select(false),
-            Action::Inspector => self.toggle_inspector(),
+            Action::Inspector => self.next_inspector(),
+            Action::Card => self.toggle_card(),
+            Action::PreviousTrial => self.turn_trial(false),
+            Action::NextTrial => self.turn_trial(true),
             Action::NextOverlays => self.next_overlays(),
         }
         Effect::DrawNow
@@ -139,6 +149,9 @@ impl State {
         }
         if self.has_target {
             self.run(false);
+        }
+        if matches!(self.open, Open::Nothing) {
+            self.view_settings.card = None;
         }
         self.open = Open::Nothing;
     }
@@ -249,13 +262,62 @@ impl State {
         }
     }
 
-    fn toggle_inspector(&mut self) {
-        self.view_settings.inspector = !self.view_settings.inspector;
-        self.say(if self.view_settings.inspector {
-            "Inspector on."
-        } else {
-            "Inspector off, where the screen has no room."
-        });
+    /// From the numbers to a contact's card, to nothing, and round again.
+    fn next_inspector(&mut self) {
+        let settings = &mut self.view_settings;
+        let shown = view::inspector_is_shown(settings, self.area);
+        let (inspector, card) = match (shown, settings.card) {
+            (false, _) => (true, None),
+            (true, None) => (true, Some(CardView::default())),
+            (true, Some(_)) => (false, None),
+        };
+        (settings.inspector, settings.card) = (Some(inspector), card);
+    }
+
+    fn toggle_card(&mut self) {
+        self.view_settings.card = match self.view_settings.card {
+            Some(_) => None,
+            None => Some(CardView::default()),
+        };
+    }
+
+    /// Goes through the trial steps of the frame's search, from the first to the last and back to the frame's end.
+    fn turn_trial(&mut self, forward: bool) {
+        let trials = self.report.snapshot.trials.len();
+        if trials == 0 {
+            let searched = !self.report.snapshot.probes.is_empty();
+            return self.say(if searched {
+                "This scene has too many spheres for its trial steps to be kept."
+            } else {
+                "This frame has searched for no collision time: c goes to a collision."
+            });
+        }
+        let card = self.view_settings.card.get_or_insert_default();
+        card.probe = match (card.probe, forward) {
+            (None, true) => Some(0),
+            (None, false) => Some(trials - 1),
+            (Some(at), true) => Some(at + 1).filter(|at| *at < trials),
+            (Some(at), false) => at.checked_sub(1),
+        };
+    }
+
+    /// Moves the card that is open; whether that is what the key does.
+    fn turns_card(&mut self, key: Key) -> bool {
+        let Some(card) = &mut self.view_settings.card else { return false };
+        let last = self.report.snapshot.contacts.len().saturating_sub(1);
+        let cursor = card.cursor.min(last);
+        let turned = match key {
+            Key { shift: false, ctrl: false, alt: false, code } => match code {
+                Code::Down => CardView { cursor: (cursor + 1).min(last), scroll: 0, ..*card },
+                Code::Up => CardView { cursor: cursor.saturating_sub(1), scroll: 0, ..*card },
+                Code::PageDown => CardView { cursor, scroll: card.scroll + CARD_PAGE, ..*card },
+                Code::PageUp => CardView { cursor, scroll: card.scroll.saturating_sub(CARD_PAGE), ..*card },
+                _ => return false,
+            },
+            _ => return false,
+        };
+        *card = turned;
+        true
     }
 
     /// Goes on until what was waited for last comes again.

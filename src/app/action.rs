@@ -69,6 +69,12 @@ pub enum Action {
     SelectPrevious,
     /// Show the inspector, or hide it.
     Inspector,
+    /// Take a contact of the frame apart, or close its card.
+    Card,
+    /// Show the trial step before in the views.
+    PreviousTrial,
+    /// Show the next trial step in the views.
+    NextTrial,
     /// The next set of overlays.
     NextOverlays,
     /// Show where the exact run is now, or stop.

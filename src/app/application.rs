@@ -95,6 +95,11 @@ impl App {
         if let Some(said) = &self.state.report.panic {
             return Effect::Fail(said.clone());
         }
+        if before.snapshot.t != self.state.report.snapshot.t
+            && let Some(card) = &mut self.state.view_settings.card
+        {
+            (card.probe, card.scroll) = (None, 0); // another frame, another search
+        }
         if let Some(comparison) = &mut self.state.comparison {
             comparison.follow(&before, &self.state.report);
         }
@@ -122,13 +127,15 @@ impl App {
     /// The screen as it stands, lent to `show`.
     fn with_screen<T>(&self, show: impl FnOnce(&Screen) -> T) -> T {
         let message = self.state.message();
+        let snapshot = &self.state.report.snapshot;
+        let trial = self.state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
         let (help, hints) = (pairs(&self.state.help), pairs(&self.state.hints));
         let entries: Vec<(&str, &str)> = match &self.state.open {
             Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
             _ => Vec::new(),
         };
         show(&Screen {
-            snapshot: &self.state.report.snapshot,
+            snapshot: trial.as_ref().unwrap_or(snapshot),
             pace: pace(&self.state.report),
             ticks: &self.state.report.ticks,
             kept: self.state.report.kept,

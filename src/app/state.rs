@@ -9,6 +9,7 @@ use super::{
     current::Current,
     input::Setup,
     keys::{help_rows, hints},
+    knobs,
     loading::Loading,
     scene_list::{self, SceneList},
     view_settings,
@@ -181,6 +182,9 @@ impl State {
     pub(super) fn solve_with(&mut self, settings: Result<Settings, String>) {
         match settings {
             Ok(settings) => {
+                if let Some(said) = knobs::in_vain(self.settings, settings) {
+                    self.say(said);
+                }
                 self.settings = settings;
                 self.worker.send(Command::Settings(settings));
             }

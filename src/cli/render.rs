@@ -47,6 +47,7 @@ struct Shown {
 fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Result<Shown, Failure> {
     let mut simulation = Simulation::new(&opened.scene, settings);
     simulation.record_events(true);
+    simulation.explain(true);
     let (mut ticks, mut impacts) = (Ticks::new(opened.scene.duration), 0);
     let mut watch = Watch::new(&simulation);
     let slice = Simulation::SLICE.min(watch.slice(simulation.model()));

@@ -63,6 +63,10 @@ pub(super) trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
+    /// The state in which the last frame's search tried a step of this length (s); none while another frame is in progress.
+    fn trial(&self, model: &Model, step: f64) -> Option<State> {
+        Some(self.at(model, self.time() - self.step() + step))
+    }
     /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
     /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere;
     /// `moreau`: what held.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::approach::Approach;
 use super::contact::{Contact, Key, Probe};
 use super::events::engine::MOST_IDLE;
 use super::events::rest_reason::RestReason;
@@ -29,6 +30,15 @@ pub fn deviations(method: Method) -> &'static [&'static str] {
     match method {
         Method::Paper => paper::DEVIATIONS,
         Method::Swept | Method::Exact | Method::Moreau => &[],
+    }
+}
+
+/// The overlap that a method accepts beyond the tolerance, dimensionless; none if it accepts nothing beyond it and answers
+/// a contact when it happens, not in the frame after.
+pub fn slack(method: Method) -> Option<f64> {
+    match method {
+        Method::Paper => Some(paper::SLACK),
+        Method::Swept | Method::Exact | Method::Moreau => None,
     }
 }
 
@@ -173,6 +183,23 @@ impl Simulation {
     /// The trial steps of the last frame's search for the collision time.
     pub fn probes(&self) -> &[Probe] {
         &self.log.probes
+    }
+
+    /// The state in which the last frame's search tried a step of this length (s): a probe's degree is that of these
+    /// positions. None while another frame is in progress.
+    pub fn trial(&self, step: f64) -> Option<State> {
+        each!(&self.engine, engine => engine.trial(&self.model, step))
+    }
+
+    /// Keep (or stop keeping) how the bodies of a frame's contacts came together, for [`Simulation::approaches`]. Off at
+    /// first: it costs a polynomial per contact, and never a bit of the result.
+    pub fn explain(&mut self, on: bool) {
+        self.log.explaining = on;
+    }
+
+    /// How the bodies of the last frame's contacts came together, of methods that follow single events, if it was asked for.
+    pub fn approaches(&self) -> &[Approach] {
+        &self.log.approaches
     }
 
     /// Keep (or stop keeping) every collide, rest and release for [`Simulation::take_events`]. Off at first: it costs

@@ -21,9 +21,11 @@ mod trend;
 pub use ghost::Ghost;
 pub use kept::Kept;
 pub use run::Snapshot;
+pub(crate) use run::shows_trials;
 pub use stage::Stage;
 pub use ticks::Ticks;
 pub use trend::{Trade, Trend};
 
 pub use crate::audit::Alarm;
-pub use crate::physics::{Class, Contact, Kind, Probe, Tallies};
+pub use crate::physics::{Approach, Class, Contact, Kind, Probe, RestReason, Shape, Tallies};
+pub use crate::scene::ContactLaw;

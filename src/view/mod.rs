@@ -12,11 +12,14 @@
 //! | `layout` | what goes where, by the size of the screen |
 //! | `sheet`, `glyphs`, `palette` | text in cells; its signs and its colours |
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
+//! | `side` | which way a view looks |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
+//! | `card` | one contact taken apart, in the inspector's place |
 //! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes` | a strip or popup each |
 
 mod canvas;
+mod card;
 mod column;
 mod draw;
 mod glyphs;
@@ -33,10 +36,13 @@ mod scenes;
 mod screen;
 mod shapes;
 mod sheet;
+mod side;
 mod stage;
 mod status;
 mod timeline;
 mod trade;
 
+pub use card::order;
 pub use draw::{cursor, draw, help_scroll_limit, visible_span};
-pub use screen::{Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};
+pub use layout::inspector_is_shown;
+pub use screen::{CardView, Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};

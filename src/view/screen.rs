@@ -75,8 +75,10 @@ pub struct ViewSettings {
     pub selected: Option<usize>,
     /// Which overlays are drawn.
     pub overlays: Overlays,
-    /// Whether the inspector was asked for; wide screens always show it.
-    pub inspector: bool,
+    /// Whether the inspector is shown; none: on wide screens.
+    pub inspector: Option<bool>,
+    /// The card of a contact in the inspector's place, if it is open.
+    pub card: Option<CardView>,
     /// Whether the exact run is shown beside this one.
     pub ghost: bool,
     /// Dots or characters.
@@ -95,12 +97,24 @@ impl Default for ViewSettings {
             follow: false,
             selected: None,
             overlays: Overlays { contacts: true, ..Overlays::default() },
-            inspector: false,
+            inspector: None,
+            card: None,
             ghost: false,
             marker: Marker::Braille,
             colors: Colors::Ansi16,
         }
     }
+}
+
+/// Which contact's card is open, and how far it is scrolled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CardView {
+    /// The contact: its place among the frame's contacts, the selected sphere's first.
+    pub cursor: usize,
+    /// Rows scrolled down.
+    pub scroll: usize,
+    /// The trial step of the frame's search that the views show, if they show one.
+    pub probe: Option<usize>,
 }
 
 /// Which projections are drawn.

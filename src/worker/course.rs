@@ -354,10 +354,11 @@ impl Course {
     }
 }
 
-/// The job's simulation at t = 0, keeping the events that the collision ticks count.
+/// The job's simulation at t = 0, keeping the events that the collision ticks count, and what explains a frame.
 fn begin(job: &Job) -> Simulation {
     let mut simulation = Simulation::new(&job.scene, job.settings);
     simulation.record_events(true);
+    simulation.explain(true);
     simulation
 }
 

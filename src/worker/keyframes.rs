@@ -2,7 +2,10 @@
 //!
 //! Where they lie depends on how fast the machine is; what a replay from them leads to does not.
 
-use crate::physics::{Keyframe, Simulation};
+use crate::{
+    physics::{Keyframe, Simulation},
+    snapshot::shows_trials,
+};
 
 /// Memory that all keyframes may take, bytes.
 pub(super) const BUDGET: usize = 64 << 20;
@@ -39,6 +42,8 @@ pub(super) struct Kept {
     pub(super) impacts: u64,
     /// Recorded changes that it includes.
     pub(super) changes: usize,
+    /// Whether the frame that ended then is shown with its inside, which a keyframe does not hold.
+    has_inside: bool,
     /// Work from the keyframe before, s.
     gap: f64,
     keyframe: Keyframe,
@@ -74,9 +79,10 @@ impl Keyframes {
         self.list.first()
     }
 
-    /// The keyframe nearest before or at `frame`.
+    /// The keyframe nearest before `frame`, or at it, if all that is shown of it is there; else the first of all.
     pub(super) fn before(&self, frame: u64) -> Option<&Kept> {
-        self.last_where(|kept| kept.frame <= frame)
+        let near = self.last_where(|kept| kept.frame < frame || kept.frame == frame && !kept.has_inside);
+        near.or(self.first().filter(|first| first.frame == frame))
     }
 
     /// The last keyframe of a beginning of the list in which all are `so`.
@@ -122,7 +128,8 @@ impl Keyframes {
         let gap = std::mem::take(&mut self.since);
         let tallies = run.tallies();
         let (frame, impacts) = (tallies.frames, tallies.impacts);
-        self.list.push(Kept { frame, time: run.time(), impacts, changes, gap, keyframe });
+        let has_inside = frame > 0 && shows_trials(run);
+        self.list.push(Kept { frame, time: run.time(), impacts, changes, has_inside, gap, keyframe });
         if self.bytes > BUDGET {
             self.thin();
         }
@@ -187,12 +194,12 @@ impl Keyframes {
 mod tests {
     use super::*;
     use crate::physics::{Progress, Until};
-    use crate::scene;
+    use crate::scene::{self, Method, Settings};
 
     /// A run of a thousand spheres, one keyframe a frame, each `gap` (s) of work from the last; what the clock tells.
     fn filled(frames: usize, gap: f64) -> (Keyframes, Simulation) {
         let scene = scene::open("box-gas").expect("built in").scene;
-        let mut run = Simulation::new(&scene, scene.solver);
+        let mut run = Simulation::new(&scene, Settings { method: Method::Exact, ..scene.solver });
         let mut keyframes = Keyframes::default();
         keyframes.keep(&run, 0, || 0.0);
         for _ in 0..frames {

@@ -454,10 +454,13 @@ impl Runner {
 
 /// What either tells; of the same kind the earlier.
 fn both(before: &Alarm, after: &Alarm) -> Alarm {
-    Alarm { overlap: before.overlap.or(after.overlap), energy: before.energy.or(after.energy) }
+    let cause = before.cause.or(after.cause);
+    Alarm { overlap: before.overlap.or(after.overlap), energy: before.energy.or(after.energy), cause }
 }
 
 /// What was wrong already at `t`, s.
 fn until(alarm: Alarm, t: f64) -> Alarm {
-    Alarm { overlap: alarm.overlap.filter(|it| it.time <= t), energy: alarm.energy.filter(|it| it.time <= t) }
+    let energy = alarm.energy.filter(|it| it.time <= t);
+    let cause = alarm.cause.filter(|_| energy.is_some());
+    Alarm { overlap: alarm.overlap.filter(|it| it.time <= t), energy, cause }
 }

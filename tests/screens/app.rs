@@ -26,14 +26,14 @@ fn tell(sender: mpsc::Sender<()>) -> Notify {
 }
 
 /// The application as a user sees it.
-pub(crate) struct User {
-    pub(crate) app: App,
+pub(super) struct User {
+    pub(super) app: App,
     news: mpsc::Receiver<()>,
-    screen: Buffer,
+    pub(super) screen: Buffer,
 }
 
 impl User {
-    pub(crate) fn at(scene: &str, paused: bool) -> User {
+    pub(super) fn at(scene: &str, paused: bool) -> User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
         let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16 };
@@ -45,17 +45,17 @@ impl User {
     }
 
     /// A paused program.
-    pub(crate) fn with(scene: &str) -> User {
+    pub(super) fn with(scene: &str) -> User {
         User::at(scene, true)
     }
 
-    pub(crate) fn look(&mut self) {
+    pub(super) fn look(&mut self) {
         self.screen.reset();
         self.app.draw(&mut self.screen);
     }
 
     /// Takes the worker's news until it is as wanted.
-    pub(crate) fn until(&mut self, what: &str, wanted: impl Fn(&App) -> bool) {
+    pub(super) fn until(&mut self, what: &str, wanted: impl Fn(&App) -> bool) {
         while !wanted(&self.app) {
             self.news.recv_timeout(PATIENCE).unwrap_or_else(|_| panic!("never {what}"));
             assert!(!matches!(self.app.handle(Input::News), Effect::Fail(_)));
@@ -63,19 +63,19 @@ impl User {
         self.look();
     }
 
-    pub(crate) fn settle(&mut self) {
+    pub(super) fn settle(&mut self) {
         self.until("settled", App::settled);
     }
 
     /// Presses a key and waits for what comes of it.
-    pub(crate) fn press(&mut self, key: Key) -> Effect {
+    pub(super) fn press(&mut self, key: Key) -> Effect {
         let effect = self.app.handle(Input::Key(key));
         self.settle();
         effect
     }
 
     /// Types, `\n` for Enter, `\x1b` for Esc and `\t` for Tab.
-    pub(crate) fn type_in(&mut self, keys: &str) {
+    pub(super) fn type_in(&mut self, keys: &str) {
         for c in keys.chars() {
             let key = match c {
                 '\n' => Key::plain(Code::Enter),
@@ -87,17 +87,17 @@ impl User {
         }
     }
 
-    pub(crate) fn snapshot(&self) -> &Snapshot {
+    pub(super) fn snapshot(&self) -> &Snapshot {
         &self.app.report().snapshot
     }
 
     /// Row `y` of the screen; negative: from the bottom.
-    pub(crate) fn row(&self, y: i32) -> String {
+    pub(super) fn row(&self, y: i32) -> String {
         let y = y.rem_euclid(24) as u16;
         (0..80).map(|x| self.screen[(x, y)].symbol()).collect()
     }
 
-    pub(crate) fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         (0..24).map(|y| self.row(y) + "\n").collect()
     }
 }
@@ -366,22 +366,6 @@ fn a_message_takes_the_rows_it_needs_and_what_is_hardly_meant_is_said_at_once() 
     let said: String = user.text().split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("2:3: unknown field") || said.contains("sphere"), "{}", user.text());
     assert!(said.contains("`spheres`"), "what is allowed is seen too: {}", user.text());
-}
-
-#[test]
-fn what_happens_unasked_hides_no_answer_and_the_next_key_ends_both() {
-    let mut user = User::with("paper-0");
-    user.type_in(":hash\n");
-    user.app.tell("The line was silent for 1.0 s; 3 frames were skipped.");
-    user.app.tell("The line was silent for 2.0 s; 9 frames were skipped.");
-    user.look();
-    let message = format!("{} {}", user.row(-2).trim(), user.row(-1).trim());
-    assert!(
-        message.contains("hash=") && message.contains("for 2.0 s; 9 frames") && !message.contains("1.0 s"),
-        "{message}"
-    );
-    user.type_in("\x1b");
-    assert!(!user.text().contains("hash=") && !user.text().contains("silent"), "{}", user.text());
 }
 
 #[test]

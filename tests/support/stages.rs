@@ -6,7 +6,7 @@ use std::sync::Arc;
 use carom::random::SplitMix64;
 use carom::{
     geometry::{Bounds, Parallelogram},
-    snapshot::{Alarm, Class, Contact, Ghost, Kept, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
+    snapshot::{Alarm, Class, Contact, ContactLaw, Ghost, Kept, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
     view::{Comparison, Mode, Pace, Popup, Screen, ViewSettings},
 };
 use glam::{DVec3, dvec3};
@@ -82,6 +82,9 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         masses: vec![1.0; spheres.len()],
         colors: vec![None; spheres.len()],
         names: vec![None; spheres.len()],
+        gravity: dvec3(0.0, -9.8, 0.0),
+        forces: vec![DVec3::ZERO; spheres.len()],
+        law: ContactLaw { restitution: 0.8, wall_restitution: 0.8, tangential: 0.98, rest_speed: 0.1 },
     };
     let snapshot = Snapshot {
         stage: Arc::new(stage),
@@ -92,11 +95,15 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         energy: 98.0,
         initial_energy: 98.0,
         contacts: Vec::new(),
+        rest_reasons: Vec::new(),
+        approaches: Vec::new(),
         probes: Vec::new(),
+        trials: Vec::new(),
         tallies: Tallies::default(),
         method: "paper",
         dt: 0.01,
         tolerance: 0.001,
+        slack: Some(1e-4),
         stall: None,
         alarm: Alarm::default(),
     };
@@ -118,6 +125,7 @@ pub(crate) fn contact(kind: Kind, a: usize, b: usize, class: Class) -> Contact {
         b,
         point: DVec3::ZERO,
         normal: DVec3::Y,
+        velocity: dvec3(1.5, -7.4, 0.0),
         approach_speed: 7.891,
         separation_speed: 6.3128,
         impulse: 14.2038,

@@ -25,6 +25,9 @@ const FEW: usize = 64;
 /// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
 pub(in crate::physics) const MOST_IDLE: f64 = (1_u64 << 30) as f64;
 
+/// Approaches that a frame keeps, from its first on.
+const MOST_APPROACHES: usize = 1000;
+
 /// Events at the very start after which the rest is left to the first frame.
 const MOST_AT_LOAD: usize = 1_000_000;
 
@@ -221,6 +224,7 @@ impl<D: Detector> EventDriven<D> {
         self.mechanics.forget_past();
         log.contacts.clear();
         log.probes.clear();
+        log.approaches.clear();
     }
 
     fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
@@ -282,6 +286,10 @@ impl<D: Detector> EventDriven<D> {
         if !plan.is_contact || stale || rested {
             schedule.predict_due(model, trajectories, rests, slot);
             return Ok(());
+        }
+        if log.explaining && log.approaches.len() < MOST_APPROACHES {
+            let key = mechanics.trajectories.key(slot, &plan);
+            log.approaches.push(mechanics.trajectories.approach(model, key));
         }
         if mechanics.collide_plain_pair(model, log, slot, &plan)? {
             let Mechanics { trajectories, rests, .. } = mechanics;

@@ -16,7 +16,7 @@ use super::rounding::{CHAIN, LOST};
 use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
-use crate::physics::state::Stall;
+use crate::physics::state::{Stall, StallKind};
 
 /// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
 pub(super) const LONG_CHAIN: u64 = 1000;
@@ -147,5 +147,5 @@ fn no_progress(now: f64) -> Stall {
     let reason = format!(
         "Events went on and on at t = {now} s without the clock advancing; set a larger rest_speed, or change the method from here."
     );
-    Stall { time: now, kind: "no-progress", reason }
+    Stall { time: now, kind: StallKind::NoProgress, reason }
 }

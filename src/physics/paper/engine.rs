@@ -91,6 +91,16 @@ impl Engine for Paper {
         state
     }
 
+    fn trial(&self, model: &Model, step: f64) -> Option<State> {
+        if self.trial.is_some() {
+            return None;
+        }
+        let mut state = self.start.clone();
+        forward(model, &self.kicks, &self.start, &mut state, step);
+        state.t += step;
+        Some(state)
+    }
+
     fn transient(&self, model: &Model) -> Vec<DVec3> {
         let mut impulses = vec![DVec3::ZERO; model.len()];
         for kick in self.pending().list() {
