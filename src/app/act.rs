@@ -287,7 +287,7 @@ impl State {
         if trials == 0 {
             let searched = !self.report.snapshot.probes.is_empty();
             return self.say(if searched {
-                "This scene has too many spheres for its trial steps to be kept."
+                "This frame's trial steps are not kept: they have too many spheres, or one came back to it."
             } else {
                 "This frame has searched for no collision time: c goes to a collision."
             });

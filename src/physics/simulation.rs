@@ -252,7 +252,7 @@ impl Simulation {
             each!(engine, engine => engine.retune(model, settings));
         } else {
             if log.tallies.frames == 0 {
-                *log = Log { recording: log.recording, ..Log::default() };
+                *log = Log { recording: log.recording, explaining: log.explaining, ..Log::default() };
             }
             let state = each!(&*engine, engine => engine.hand_over(model));
             *engine = Engines::begin(model, settings, state, log);

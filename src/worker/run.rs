@@ -454,13 +454,15 @@ impl Runner {
 
 /// What either tells; of the same kind the earlier.
 fn both(before: &Alarm, after: &Alarm) -> Alarm {
-    let cause = before.cause.or(after.cause);
-    Alarm { overlap: before.overlap.or(after.overlap), energy: before.energy.or(after.energy), cause }
+    Alarm {
+        overlap: before.overlap.or(after.overlap),
+        energy: before.energy.or(after.energy),
+        cause: before.cause.or(after.cause),
+    }
 }
 
 /// What was wrong already at `t`, s.
 fn until(alarm: Alarm, t: f64) -> Alarm {
     let energy = alarm.energy.filter(|it| it.time <= t);
-    let cause = alarm.cause.filter(|_| energy.is_some());
-    Alarm { overlap: alarm.overlap.filter(|it| it.time <= t), energy, cause }
+    Alarm { overlap: alarm.overlap.filter(|it| it.time <= t), energy, cause: alarm.cause.filter(|_| energy.is_some()) }
 }

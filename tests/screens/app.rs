@@ -26,14 +26,14 @@ fn tell(sender: mpsc::Sender<()>) -> Notify {
 }
 
 /// The application as a user sees it.
-pub(super) struct User {
-    pub(super) app: App,
+pub(crate) struct User {
+    pub(crate) app: App,
     news: mpsc::Receiver<()>,
-    pub(super) screen: Buffer,
+    pub(crate) screen: Buffer,
 }
 
 impl User {
-    pub(super) fn at(scene: &str, paused: bool) -> User {
+    pub(crate) fn at(scene: &str, paused: bool) -> User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
         let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16 };
@@ -45,17 +45,17 @@ impl User {
     }
 
     /// A paused program.
-    pub(super) fn with(scene: &str) -> User {
+    pub(crate) fn with(scene: &str) -> User {
         User::at(scene, true)
     }
 
-    pub(super) fn look(&mut self) {
+    pub(crate) fn look(&mut self) {
         self.screen.reset();
         self.app.draw(&mut self.screen);
     }
 
     /// Takes the worker's news until it is as wanted.
-    pub(super) fn until(&mut self, what: &str, wanted: impl Fn(&App) -> bool) {
+    pub(crate) fn until(&mut self, what: &str, wanted: impl Fn(&App) -> bool) {
         while !wanted(&self.app) {
             self.news.recv_timeout(PATIENCE).unwrap_or_else(|_| panic!("never {what}"));
             assert!(!matches!(self.app.handle(Input::News), Effect::Fail(_)));
@@ -63,19 +63,19 @@ impl User {
         self.look();
     }
 
-    pub(super) fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         self.until("settled", App::settled);
     }
 
     /// Presses a key and waits for what comes of it.
-    pub(super) fn press(&mut self, key: Key) -> Effect {
+    pub(crate) fn press(&mut self, key: Key) -> Effect {
         let effect = self.app.handle(Input::Key(key));
         self.settle();
         effect
     }
 
     /// Types, `\n` for Enter, `\x1b` for Esc and `\t` for Tab.
-    pub(super) fn type_in(&mut self, keys: &str) {
+    pub(crate) fn type_in(&mut self, keys: &str) {
         for c in keys.chars() {
             let key = match c {
                 '\n' => Key::plain(Code::Enter),
@@ -87,17 +87,17 @@ impl User {
         }
     }
 
-    pub(super) fn snapshot(&self) -> &Snapshot {
+    pub(crate) fn snapshot(&self) -> &Snapshot {
         &self.app.report().snapshot
     }
 
     /// Row `y` of the screen; negative: from the bottom.
-    pub(super) fn row(&self, y: i32) -> String {
+    pub(crate) fn row(&self, y: i32) -> String {
         let y = y.rem_euclid(24) as u16;
         (0..80).map(|x| self.screen[(x, y)].symbol()).collect()
     }
 
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         (0..24).map(|y| self.row(y) + "\n").collect()
     }
 }

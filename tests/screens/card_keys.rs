@@ -25,7 +25,7 @@ fn the_trial_steps_of_a_search_are_gone_through_with_the_views() {
     let mut user = User::with("paper-0");
     user.type_in("(");
     assert!(user.text().contains("searched for no collision time"), "{}", user.text());
-    user.type_in("c");
+    user.type_in("c\x1b");
     let (at_end, trials) = (user.screen.clone(), user.snapshot().trials.clone());
     assert_eq!(trials.len(), user.snapshot().probes.len());
     user.type_in(")");

@@ -92,7 +92,8 @@ impl Engine for Paper {
     }
 
     fn trial(&self, model: &Model, step: f64) -> Option<State> {
-        if self.trial.is_some() {
+        // a run that was kept between two frames knows the start of none
+        if self.trial.is_some() || self.start.t == self.end.t {
             return None;
         }
         let mut state = self.start.clone();
