@@ -36,7 +36,7 @@ const RUNS: [(&str, &[(Method, f64)]); 6] = [
     ("paper-2", &[(Method::Paper, 10.0), (Method::Exact, 1000.0), (Method::Moreau, 1000.0)]),
     ("paper-3", &[(Method::Paper, 20.0), (Method::Swept, 1000.0)]),
     ("elastic-666", &[(Method::Paper, 3.0), (Method::Exact, 150.0), (Method::Moreau, 20.0)]),
-    ("inelastic-666", &[(Method::Exact, 0.6), (Method::Moreau, 10.0)]),
+    ("inelastic-666", &[(Method::Exact, 0.45), (Method::Moreau, 10.0)]),
     ("box-gas", &[(Method::Paper, 4.0), (Method::Exact, 300.0), (Method::Moreau, 20.0)]),
     ("crowd", &[(Method::Paper, 0.1), (Method::Swept, 10.0), (Method::Exact, 20.0), (Method::Moreau, 3.0)]),
 ];
@@ -53,7 +53,7 @@ fn main() {
         if !wanted.is_empty() && !wanted.iter().any(|wanted| wanted == name) {
             continue;
         }
-        let scene = if name == "crowd" { scene::parse("crowd", CROWD) } else { scene::open(name).map(|o| o.scene) };
+        let scene = if name == "crowd" { scene::parse(CROWD, "crowd") } else { scene::open(name).map(|o| o.scene) };
         let scene = Arc::new(scene.expect("a scene"));
         for &(method, until) in methods {
             measured(name, &scene, method, until);

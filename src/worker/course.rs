@@ -6,7 +6,7 @@
 
 use super::{
     job::Job,
-    keyframes::{Keyframes, MOST_FRAMES},
+    keyframes::{Keyframes, MOST_FRAMES, RECENT},
 };
 use crate::{
     physics::{Contact, Progress, Simulation, Stall, Until},
@@ -17,6 +17,9 @@ use crate::{
 /// Changes that are remembered: more than a hand makes in hours. When there are more, the history begins anew.
 const MOST_CHANGES: usize = 1 << 16;
 
+/// How long a scout goes on before commands are looked at again, s.
+const SCOUTING: f64 = 2e-3;
+
 /// A change of settings.
 #[derive(Debug, Clone, Copy)]
 struct Change {
@@ -26,6 +29,18 @@ struct Change {
     /// Whether the next frame had been tried, and could not be.
     stalled: bool,
     settings: Settings,
+}
+
+/// A run that is done again while nothing else is to do, to be kept near the frame that is shown.
+#[derive(Debug)]
+struct Scout {
+    run: Simulation,
+    changes: usize,
+    /// The frame to be kept, and the one that is shown.
+    target: u64,
+    shown: u64,
+    /// Work so far, s.
+    work: f64,
 }
 
 /// The run where it had come to, while an earlier frame is shown.
@@ -55,6 +70,9 @@ pub(super) struct Course {
     /// Impacts at its beginning.
     first_impacts: u64,
     newest: Option<Box<Newest>>,
+    scout: Option<Box<Scout>>,
+    /// The frame that was shown when a scout came home last.
+    scouted: Option<u64>,
 }
 
 impl Course {
@@ -75,6 +93,8 @@ impl Course {
             changed: 0,
             from_start: true,
             newest: None,
+            scout: None,
+            scouted: None,
         }
     }
 
@@ -225,6 +245,40 @@ impl Course {
         work > self.most_work()
     }
 
+    /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
+    /// `work`; whether there is more to do. `clock` tells the time, s.
+    pub(super) fn scout(&mut self, work: u64, clock: impl Fn() -> f64) -> bool {
+        let shown = self.frame();
+        let Some(scout) = self.scout.as_mut().filter(|scout| scout.shown == shown) else {
+            self.scout = self.send_scout(shown);
+            return self.scout.is_some();
+        };
+        let start = clock();
+        let mut progress = Progress::Reached;
+        while progress == Progress::Reached && scout.run.tallies().frames < scout.target && clock() - start < SCOUTING {
+            progress = scout.run.advance(Until::Frame, work);
+        }
+        scout.run.take_events();
+        scout.work += clock() - start;
+        let there = scout.run.tallies().frames >= scout.target;
+        if !there && !matches!(progress, Progress::Stalled(_)) {
+            return true;
+        }
+        self.scouted = Some(shown);
+        if let Some(scout) = self.scout.take().filter(|_| there) {
+            self.keyframes.insert(&scout.run, scout.changes, scout.work);
+        }
+        false
+    }
+
+    fn send_scout(&self, shown: u64) -> Option<Box<Scout>> {
+        let kept = self.keyframes.lacking_before(shown).filter(|_| self.scouted != Some(shown))?;
+        let target = shown - RECENT;
+        let change = self.changes.get(kept.changes).map_or(u64::MAX, |change| change.frame);
+        let scout = || Scout { run: kept.run(), changes: kept.changes, target, shown, work: 0.0 };
+        (change > target).then(|| Box::new(scout()))
+    }
+
     /// Units of work in which no more frames can pass than a replay may have to look at.
     fn most_work(&self) -> u64 {
         MOST_FRAMES.saturating_mul(self.simulation.model().len().max(1) as u64)
@@ -341,6 +395,7 @@ impl Course {
     pub(super) fn branch(&mut self) -> u64 {
         let Some(newest) = self.newest.take() else { return 0 };
         self.keyframes.cut(self.frame(), self.time());
+        self.scouted = None;
         self.changes.truncate(self.changed);
         newest.simulation.tallies().frames - self.frame()
     }

@@ -239,6 +239,39 @@ fn times_and_impacts_are_found_where_they_were() {
 }
 
 #[test]
+fn while_nothing_else_is_to_do_a_keyframe_is_put_before_the_last_frames() {
+    let mut walk = Walk::new("paper-4", Method::Exact);
+    for _ in 0..900 {
+        walk.course.advance(Until::Frame, WHOLE);
+        walk.look();
+    }
+    walk.course.note_work(5e-3, || 0.0); // all of them, as far as is known: too much to be done again for a frame
+    let settings = Settings { tolerance: 1e-5, ..walk.course.settings() };
+    walk.course.set(settings);
+    walk.look();
+    for _ in 0..50 {
+        walk.course.advance(Until::Frame, WHOLE);
+        walk.look();
+    }
+    let newest = walk.course.frame();
+    assert_eq!(walk.course.keyframes.before(newest - 1).map(|kept| kept.frame), Some(900));
+    walk.course.set_out(850);
+    while !walk.course.is_at(850) {
+        walk.course.advance(Until::Frame, WHOLE);
+    }
+    let mut turns = 0;
+    while walk.course.scout(WHOLE, || 0.0) {
+        turns += 1;
+        assert!(turns < 10, "it ends");
+    }
+    assert_eq!(walk.course.keyframes.before(849).map(|kept| kept.frame), Some(750));
+    assert!(!walk.course.scout(WHOLE, || 0.0), "and once is enough");
+    for frame in [760, 751, 750, 749, 899, 900, 901] {
+        walk.visit(frame, "from a scout's keyframe");
+    }
+}
+
+#[test]
 fn frames_that_are_too_many_to_count_are_not_kept() {
     let mut walk = Walk::new("paper-0", Method::Exact);
     (0..50).all(|_| walk.frame());
