@@ -1,19 +1,16 @@
 //! How long does it take to go back, and what does it cost a run that its past is kept? `cargo bench --bench history`
 //!
 //! A run of a scene by a method goes on for some seconds of wall time, or frames; then come a hundred frames back one by
-//! one, places at random among all that are kept, and collisions backwards: the longest and the median time until the
-//! worker has reported the frame. The cost is the processor time of the run over that of a bare simulation with the same
+//! one, places at random among all that are kept, and collisions backwards: the longest and the median processor time of
+//! all threads until the worker has reported the frame, which is what passes where nothing else runs. The cost is the processor time of the run over that of a bare simulation with the same
 //! watch over it. The memory is what the process has grown by since the run's start. Names of scenes choose among them.
 
 // Results go to stdout: this is a program for people.
 #![allow(clippy::print_stdout)]
 
-use std::{
-    sync::{
-        Arc,
-        mpsc::{self, Receiver},
-    },
-    time::Instant,
+use std::sync::{
+    Arc,
+    mpsc::{self, Receiver},
 };
 
 use carom::{
@@ -99,6 +96,7 @@ fn figures(mut times: Vec<f64>) -> String {
 fn bare(scene: &Scene, settings: Settings, until: f64) -> f64 {
     let mut run = Simulation::new(scene, settings);
     run.record_events(true);
+    run.explain(true);
     let mut watch = Watch::new(&run);
     let start = measure::thread_cpu();
     while run.advance(Until::Time(until), Simulation::SLICE) == Progress::Yielded {
@@ -113,6 +111,12 @@ fn resident() -> f64 {
     let pages = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
     let pages: f64 = pages.split(' ').nth(1).and_then(|pages| pages.parse().ok()).unwrap_or(f64::NAN);
     4096.0 * pages
+}
+
+/// Processor time of this process, s.
+fn processor() -> f64 {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 /// A worker, and who tells of its news.
@@ -133,13 +137,13 @@ impl User {
 
     /// Has a command obeyed; how long it took, s.
     fn until(&mut self, command: Command) -> f64 {
-        let start = Instant::now();
+        let start = processor();
         self.worker.send(command);
         let sent = self.worker.sent();
         loop {
             let report: Arc<Report> = self.worker.take();
             if report.obeyed == sent && report.activity != Activity::Running {
-                return start.elapsed().as_secs_f64();
+                return processor() - start;
             }
             let _ = self.news.recv();
         }

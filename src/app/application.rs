@@ -134,6 +134,11 @@ impl App {
             Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
             _ => Vec::new(),
         };
+        let scenes = self.state.scene_names();
+        let offers = match &self.state.open {
+            Open::Prompt(line) => line.offers(&self.state.context(&scenes)).join("  "),
+            _ => String::new(),
+        };
         show(&Screen {
             snapshot: trial.as_ref().unwrap_or(snapshot),
             pace: pace(&self.state.report),
@@ -143,7 +148,7 @@ impl App {
             view_settings: &self.state.view_settings,
             popup: match &self.state.open {
                 Open::Nothing => Popup::None,
-                Open::Prompt(text) => Popup::Prompt { text },
+                Open::Prompt(line) => Popup::Prompt { text: line.text(), cursor: line.cursor(), offers: &offers },
                 Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
                 Open::Scenes(list) => Popup::Scenes {
                     filter: list.filter(),

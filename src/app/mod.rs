@@ -12,6 +12,7 @@
 //! | `keys`, `action` | which key does what |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `line` | the `:` line while it is typed |
 //! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
 //! | `comparison` | the exact run beside the one shown |
 
@@ -23,6 +24,7 @@ mod current;
 mod input;
 mod keys;
 mod knobs;
+mod line;
 mod loading;
 mod opening;
 mod prompt;

@@ -10,7 +10,9 @@ use super::{
     input::Setup,
     keys::{help_rows, hints},
     knobs,
+    line::{Line, Orders},
     loading::Loading,
+    prompt::Context,
     scene_list::{self, SceneList},
     view_settings,
 };
@@ -30,7 +32,7 @@ pub(super) enum Open {
     Nothing,
     Help { scroll: usize },
     Scenes(SceneList),
-    Prompt(String),
+    Prompt(Line),
 }
 
 /// What the application holds.
@@ -58,6 +60,8 @@ pub(super) struct State {
     pub(super) notify: Notify,
     pub(super) view_settings: ViewSettings,
     pub(super) open: Open,
+    /// Orders given on the `:` line.
+    pub(super) orders: Orders,
     /// What the last key has led to, until the next key.
     pub(super) answer: Option<String>,
     /// What happened unasked and is worth a line, until the next key.
@@ -97,6 +101,7 @@ impl State {
             notify,
             view_settings: first_view_settings(setup.marker, setup.colors),
             open: Open::Nothing,
+            orders: Orders::default(),
             answer: None,
             news: None,
             area: Rect::default(),
@@ -108,6 +113,19 @@ impl State {
             state.run(true);
         }
         Ok(state)
+    }
+
+    /// The names of all scenes: the file the program was started with, then the built-in ones.
+    pub(super) fn scene_names(&self) -> Vec<String> {
+        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
+        given.chain(scene_list::built_in_names().map(str::to_owned)).collect()
+    }
+
+    /// What can be named on the `:` line, where there are these scenes.
+    pub(super) fn context<'a>(&self, scenes: &'a [String]) -> Context<'a> {
+        let stage = &self.current.stage;
+        let (spheres, walls) = (stage.radii.len(), stage.walls.len());
+        Context { spheres, walls, selected: self.view_settings.selected, scenes }
     }
 
     /// Answers the last key, in place of the key hints, until the next key.

@@ -6,7 +6,7 @@
 
 use super::{
     job::Job,
-    keyframes::{Keyframes, MOST_FRAMES, RECENT},
+    keyframes::{Keyframes, MOST_FRAMES, NOTICED, RECENT},
 };
 use crate::{
     physics::{Contact, Progress, Simulation, Stall, Until},
@@ -70,6 +70,8 @@ pub(super) struct Course {
     /// Impacts at its beginning.
     first_impacts: u64,
     newest: Option<Box<Newest>>,
+    /// The earlier frame that the run is on its way to from a keyframe, and the work since that or the one kept last, s.
+    toward: Option<(u64, f64)>,
     scout: Option<Box<Scout>>,
     /// The frame that was shown when a scout came home last.
     scouted: Option<u64>,
@@ -93,6 +95,7 @@ impl Course {
             changed: 0,
             from_start: true,
             newest: None,
+            toward: None,
             scout: None,
             scouted: None,
         }
@@ -232,11 +235,22 @@ impl Course {
 
     /// Takes note that the last advance took so long, s, and keeps the frame if it is time to; `clock` tells the time, s.
     pub(super) fn note_work(&mut self, seconds: f64, clock: impl Fn() -> f64) {
-        if !self.is_past() {
-            self.keyframes.note_work(seconds);
-            if self.whole && self.keyframes.is_due(self.frame()) {
-                self.keyframes.keep(&self.simulation, self.changed, clock);
-            }
+        if self.is_past() {
+            return self.keep_on_the_way(seconds);
+        }
+        self.keyframes.note_work(seconds);
+        if self.whole && self.keyframes.is_due(self.frame()) {
+            self.keyframes.keep(&self.simulation, self.changed, clock);
+        }
+    }
+
+    /// Keeps what comes shortly before the frame that the run is on its way to: the next step back is quick then.
+    fn keep_on_the_way(&mut self, seconds: f64) {
+        let frame = self.frame();
+        let Some((target, work)) = &mut self.toward else { return };
+        *work += seconds;
+        if self.whole && frame < *target && frame + RECENT >= *target && *work > NOTICED {
+            self.keyframes.insert(&self.simulation, self.changed, std::mem::take(work));
         }
     }
 
@@ -345,6 +359,7 @@ impl Course {
         if frame >= self.newest().0 {
             return self.take_up();
         }
+        self.toward = None;
         let here = (self.is_past() && self.whole && self.frame() <= frame).then_some(self.frame());
         let keyframe = self.keyframes.before(frame);
         if here.is_some_and(|here| keyframe.is_none_or(|kept| kept.frame <= here)) {
@@ -355,6 +370,7 @@ impl Course {
             None => (begin(&self.job), 0),
         };
         self.put_aside(run, changes);
+        self.toward = Some((frame, 0.0));
     }
 
     /// Sets out for the first frame that ends at or after `time`, s.

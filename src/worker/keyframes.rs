@@ -32,7 +32,7 @@ pub(super) const MOST_FRAMES: u64 = 1 << 14;
 pub(super) const RECENT: u64 = 100;
 
 /// Work from one keyframe to the next, s, that is too much where one goes back frame by frame.
-const NOTICED: f64 = 3e-3;
+pub(super) const NOTICED: f64 = 3e-3;
 
 /// A keyframe and where it belongs.
 #[derive(Debug)]
@@ -143,11 +143,15 @@ impl Keyframes {
         }
     }
 
-    /// Keeps a run at its place among the others, so much work (s) after the one before.
+    /// Keeps a run at its place among the others, so much work (s) after the one before, unless that frame is kept.
     pub(super) fn insert(&mut self, run: &Simulation, changes: usize, work: f64) {
+        let frame = run.tallies().frames;
+        let place = self.list.partition_point(|other| other.frame < frame);
+        if self.list.get(place).is_some_and(|other| other.frame == frame) {
+            return;
+        }
         let Some(mut kept) = Kept::of(run, changes) else { return };
         kept.gap = work;
-        let place = self.list.partition_point(|other| other.frame < kept.frame);
         let after = self.list.get_mut(place).map_or(&mut self.since, |after| &mut after.gap);
         *after = (*after - work).max(0.0);
         self.bytes += kept.keyframe.bytes();

@@ -78,6 +78,8 @@ impl Walk {
         while !self.course.is_at(frame) {
             let work = 1 + self.below(200);
             let progress = self.course.advance(Until::Frame, work);
+            let cost = 4e-3 * f64::from(u8::from(self.below(50) == 0));
+            self.course.note_work(cost, || 0.0);
             assert!(!matches!(progress, Progress::Stalled(_)) && self.course.frame() <= frame, "{name}: {progress:?}");
         }
         let (told, seen) = (self.told(), &self.seen[&frame]);
