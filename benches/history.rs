@@ -79,7 +79,7 @@ fn measured(name: &str, scene: &Arc<Scene>, method: Method, until: f64) {
     user.until(Command::Newest);
     let impacts: Vec<f64> = (0..20).map(|_| user.until(Command::PreviousImpact)).collect();
     let start = 1e3 * user.until(Command::Oldest);
-    let times = [steps, places, impacts].map(|times| figures(times)).join("  ");
+    let times = [steps, places, impacts].map(figures).join("  ");
     println!(
         "{name:<14} {method:<7?} {frames:>8} {front:>7} {:>5.3} {grown:>5.1}   {times} {start:>8.2}",
         report.cpu / bare

@@ -5,7 +5,7 @@ use ratatui::{buffer::Buffer, layout::Position};
 use super::{
     comparison::Comparison,
     input::{Effect, Input, Setup},
-    keys::pairs,
+    keys::{self, pairs},
     said,
     state::{Open, STALLED, State},
 };
@@ -129,7 +129,8 @@ impl App {
         let message = self.state.message();
         let snapshot = &self.state.report.snapshot;
         let trial = self.state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
-        let (help, hints) = (pairs(&self.state.help), pairs(&self.state.hints));
+        let hints = keys::hints_at(self.state.place());
+        let (help, hints) = (pairs(&self.state.help), pairs(&hints));
         let entries: Vec<(&str, &str)> = match &self.state.open {
             Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
             _ => Vec::new(),

@@ -196,6 +196,58 @@ pub fn hints() -> Vec<(String, &'static str)> {
     table().filter_map(|row| row.hint.map(|word| (row.keys[0].to_string(), word))).collect()
 }
 
+/// What the hint line is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Anywhere else.
+    Run,
+    /// A pause at a frame with an impact, whose search can be gone through or not.
+    Impact {
+        /// Whether its trial steps are known.
+        searched: bool,
+    },
+    /// An earlier frame.
+    Past,
+    /// The scene list.
+    List,
+    /// The help.
+    Help,
+}
+
+/// The hint line where it is wanted for something else than a run.
+pub(super) fn hints_at(place: Place) -> Vec<(String, &'static str)> {
+    let way: &[(Action, &'static str)] = match place {
+        Place::Run => return hints(),
+        Place::List => return plain(&[("j k", "move"), ("/", "filter"), ("Enter", "open"), ("Esc", "close")]),
+        Place::Help => return plain(&[("j k", "scroll"), ("Esc", "close")]),
+        Place::Past => &[
+            (Action::TogglePause, "go on here"),
+            (Action::Step, "on"),
+            (Action::StepBack, "back"),
+            (Action::PreviousImpact, "collision before"),
+            (Action::Newest, "newest"),
+        ],
+        Place::Impact { .. } => &[
+            (Action::TogglePause, "run"),
+            (Action::Step, "step"),
+            (Action::StepBack, "back"),
+            (Action::Card, "why"),
+            (Action::NextTrial, "search"),
+            (Action::NextImpact, "next"),
+            (Action::PreviousImpact, "before"),
+        ],
+    };
+    let out = [(Action::Help, "help"), (Action::Quit, "quit")];
+    let shown = |action: Action| action != Action::NextTrial || place == Place::Impact { searched: true };
+    let key = |action: Action| table().find(|row| row.action == action).map(|row| row.keys[0].to_string());
+    let all = way.iter().chain(&out).filter(|(action, _)| shown(*action));
+    all.filter_map(|(action, word)| Some((key(*action)?, *word))).collect()
+}
+
+fn plain(rows: &[(&str, &'static str)]) -> Vec<(String, &'static str)> {
+    rows.iter().map(|(key, word)| ((*key).to_owned(), *word)).collect()
+}
+
 /// The rows of a table of keys as slices.
 pub(super) fn pairs<'a>(rows: &'a [(String, &'static str)]) -> Vec<(&'a str, &'a str)> {
     rows.iter().map(|(keys, does)| (keys.as_str(), *does)).collect()
@@ -215,14 +267,16 @@ mod tests {
 
     #[test]
     fn the_hints_lead_to_the_help_and_out_on_80_columns_and_all_labels_are_plain_ascii() {
-        let mut column = 0;
-        for (key, word) in hints() {
-            column += key.len() + 1 + word.len() + 2;
-            if word == "quit" {
-                break;
+        for place in [Place::Run, Place::Past, Place::Impact { searched: true }] {
+            let mut column = 0;
+            for (key, word) in hints_at(place) {
+                column += key.len() + 1 + word.len() + 2;
+                if word == "quit" {
+                    break;
+                }
             }
+            assert!(column <= 80, "{place:?}: `quit` ends in column {column}");
         }
-        assert!(column <= 80, "`quit` ends in column {column}");
         for (keys, does) in help_rows() {
             assert!(keys.is_ascii() && does.is_ascii(), "{keys} {does}");
         }

@@ -8,7 +8,7 @@ use super::{
     comparison::Comparison,
     current::Current,
     input::Setup,
-    keys::{help_rows, hints},
+    keys::{Place, help_rows},
     knobs,
     line::{Line, Orders},
     loading::Loading,
@@ -19,6 +19,7 @@ use super::{
 use crate::{
     printable,
     scene::{self, Settings},
+    snapshot::Class,
     view::{Colors, Marker, ViewSettings},
     worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
@@ -69,7 +70,6 @@ pub(super) struct State {
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
-    pub(super) hints: Vec<(String, &'static str)>,
 }
 
 impl State {
@@ -106,7 +106,6 @@ impl State {
             news: None,
             area: Rect::default(),
             help: help_rows(),
-            hints: hints(),
         };
         state.warn();
         if !setup.paused {
@@ -119,6 +118,19 @@ impl State {
     pub(super) fn scene_names(&self) -> Vec<String> {
         let given = self.given.iter().map(|(entry, _)| entry.name.clone());
         given.chain(scene_list::built_in_names().map(str::to_owned)).collect()
+    }
+
+    /// What the hint line is for.
+    pub(super) fn place(&self) -> Place {
+        let snapshot = &self.report.snapshot;
+        let struck = || snapshot.contacts.iter().any(|contact| contact.class == Class::Collide);
+        match (&self.open, self.report.activity) {
+            (Open::Scenes(_), _) => Place::List,
+            (Open::Help { .. }, _) => Place::Help,
+            _ if self.report.kept.is_past => Place::Past,
+            (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
+            _ => Place::Run,
+        }
     }
 
     /// What can be named on the `:` line, where there are these scenes.
