@@ -33,6 +33,9 @@ pub mod audit;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod config;
 #[doc(hidden)]
 pub mod explain;
 pub mod export;

@@ -2,6 +2,8 @@
 
 #[path = "cli/bounds.rs"]
 mod bounds;
+#[path = "cli/config.rs"]
+mod config;
 #[path = "cli/files.rs"]
 mod files;
 #[path = "cli/outputs.rs"]
@@ -10,6 +12,8 @@ mod outputs;
 mod program;
 #[path = "cli/runs.rs"]
 mod runs;
+#[path = "cli/talk.rs"]
+mod talk;
 #[path = "cli/text.rs"]
 mod text;
 #[path = "cli/verify.rs"]

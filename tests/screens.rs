@@ -6,7 +6,7 @@ use carom::{
     physics::Simulation,
     scene,
     snapshot::{Class, Snapshot, Stage},
-    view::{self, CardView, Colors, Marker, Overlays, Popup, Screen, ViewSettings, Views},
+    view::{self, Colors, Marker, Overlays, Popup, Screen, ViewSettings, Views},
 };
 use glam::{DVec3, dvec3};
 use proptest::{prelude::*, test_runner::RngSeed};
@@ -34,11 +34,18 @@ mod depth;
 mod frames;
 #[path = "screens/history.rs"]
 mod history;
+#[path = "screens/keymap.rs"]
+mod keymap;
+#[path = "screens/look.rs"]
+mod look;
+#[path = "screens/mouse.rs"]
+mod mouse;
 #[path = "screens/projections.rs"]
 mod projections;
 #[path = "support/stages.rs"]
 mod stages;
 
+use look::look;
 use stages::Scene;
 
 const KEYS: &[(&str, &str)] = &[
@@ -296,30 +303,6 @@ fn assert_stays_within(screen: &Screen, width: u16, height: u16) {
     view::draw(screen, Rect::new(1, 1, width + 9, height + 9), &mut buffer);
     let cursor = view::cursor(screen, area);
     assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} of {width}x{height}");
-}
-
-fn look() -> impl Strategy<Value = ViewSettings> {
-    let number =
-        prop_oneof![4 => -1e2..1e2, 1 => -1e12..1e12, 1 => Just(f64::NAN), 1 => Just(f64::INFINITY), 1 => Just(-1e300)];
-    let zoom = prop_oneof![4 => (-6.0..6.0).prop_map(|power: f64| 10_f64.powf(power)), 1 => number.clone()];
-    let views = prop_oneof![Just(Views::Both), Just(Views::Side), Just(Views::Top)];
-    let marker = prop_oneof![Just(Marker::Braille), Just(Marker::Block), Just(Marker::Ascii)];
-    let colors = prop_oneof![Just(Colors::Never), Just(Colors::Ansi16), Just(Colors::Ansi256), Just(Colors::Rgb)];
-    let flags = proptest::collection::vec(any::<bool>(), 7);
-    (views, zoom, [number.clone(), number.clone(), number], flags, proptest::option::of(0_usize..5), marker, colors)
-        .prop_map(|(views, zoom, pan, flags, selected, marker, colors)| ViewSettings {
-            views,
-            zoom,
-            pan: DVec3::from_array(pan),
-            follow: flags[0],
-            selected,
-            overlays: Overlays { contacts: flags[1], normals: flags[2], velocities: flags[3], ids: flags[4] },
-            inspector: Some(flags[5]),
-            card: flags[4].then(|| CardView { cursor: 1, scroll: 3, probe: flags[1].then_some(2) }),
-            ghost: flags[6],
-            marker,
-            colors,
-        })
 }
 
 proptest! {

@@ -3,7 +3,7 @@
 use super::{
     action::{Action, Direction},
     input::Effect,
-    keys::{self, Code, Key, pairs},
+    keys::{Code, Key, pairs},
     knobs,
     line::{LONGEST, Line, Typed},
     prompt::{self, Order},
@@ -27,7 +27,7 @@ impl State {
         (self.answer, self.news) = (None, None);
         // These work whatever is open and is being typed into, but that Ctrl-C closes the `:` line first.
         let typing = matches!(self.open, Open::Prompt(_));
-        match keys::action(key).filter(|_| key.ctrl) {
+        match self.keymap.action(key).filter(|_| key.ctrl) {
             Some(Action::Quit) if typing => {}
             Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) => return self.act(action),
             _ => {}
@@ -95,7 +95,7 @@ impl State {
     }
 
     fn act_on(&mut self, key: Key) -> Effect {
-        match keys::action(key) {
+        match self.keymap.action(key) {
             Some(action) => self.act(action),
             None => Effect::DrawNow, // the message has vanished
         }
@@ -133,7 +133,7 @@ impl State {
             Action::Ghost => self.toggle_ghost(),
             Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
-            Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+            Action::Scenes => self.toggle_scenes(),
             Action::Close => self.close(),
             Action::NextViews => view_settings::next_views(&mut self.view_settings),
             Action::Pan(direction) => self.pan(direction),
@@ -148,6 +148,7 @@ impl State {
             Action::PreviousTrial => self.turn_trial(false),
             Action::NextTrial => self.turn_trial(true),
             Action::NextOverlays => self.next_overlays(),
+            Action::Mouse => self.toggle_mouse(),
         }
         Effect::DrawNow
     }
@@ -167,7 +168,7 @@ impl State {
     }
 
     /// Magnifies by `factor`, or says `at_the_end` where it is already at the end.
-    fn zoom(&mut self, factor: f64, at_the_end: &str) {
+    pub(super) fn zoom(&mut self, factor: f64, at_the_end: &str) {
         if !view_settings::zoom(&mut self.view_settings, factor) {
             self.say(at_the_end);
         }
@@ -226,6 +227,13 @@ impl State {
         self.given.iter().map(|(entry, _)| entry.clone()).chain(scene_list::built_in()).collect()
     }
 
+    fn toggle_scenes(&mut self) {
+        self.open = match self.open {
+            Open::Scenes(_) => Open::Nothing,
+            _ => Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+        };
+    }
+
     fn toggle_help(&mut self) {
         self.open = match self.open {
             Open::Help { .. } => Open::Nothing,
@@ -239,7 +247,7 @@ impl State {
         view_settings::pan(&mut self.view_settings, direction, span);
     }
 
-    fn let_go(&mut self) {
+    pub(super) fn let_go(&mut self) {
         let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i));
         view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x.copied());
     }
@@ -337,16 +345,19 @@ impl State {
         }
     }
 
+    /// Goes to the time `t`, s.
+    pub(super) fn goto(&mut self, t: f64) {
+        self.head_for(Command::Goto(t), true);
+        self.say("On the way to the first frame that ends then or later; Esc stops.");
+    }
+
     fn order(&mut self, text: &str) {
         match prompt::read(text, &self.context(&[])) {
             Ok(None) => {}
             Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
-            Ok(Some(Order::Goto(t))) => {
-                self.head_for(Command::Goto(t), true);
-                self.say("On the way to the first frame that ends then or later; Esc stops.");
-            }
+            Ok(Some(Order::Goto(t))) => self.goto(t),
             Ok(Some(Order::Method(method))) => self.solve_with(Ok(Settings { method, ..self.settings })),
             Ok(Some(Order::Scene(name))) => self.open_scene(&name),
             Ok(Some(Order::Select(index))) => {

@@ -83,6 +83,8 @@ pub enum Action {
     Prompt,
     /// Show the keys, or hide them.
     Help,
+    /// Have the terminal report the mouse, or leave it to the terminal.
+    Mouse,
     /// Draw everything again.
     Repaint,
     /// Give the terminal back to the shell for a while.
@@ -91,6 +93,24 @@ pub enum Action {
     Quit,
     /// Close what is open.
     Close,
+}
+
+impl Action {
+    /// Its name in a configuration: `step`, `pan_left`.
+    pub fn name(self) -> String {
+        let mut name = String::new();
+        for c in format!("{self:?}").chars().filter(|c| *c != ')') {
+            match c {
+                '(' => {}
+                c if c.is_ascii_uppercase() => {
+                    name.extend((!name.is_empty()).then_some('_'));
+                    name.push(c.to_ascii_lowercase());
+                }
+                c => name.push(c),
+            }
+        }
+        name
+    }
 }
 
 /// Where the view moves to on the screen.

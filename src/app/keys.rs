@@ -162,90 +162,18 @@ const TABLE: &[Binding] = &[
     bind(&[K::char('Z')], Action::ZoomOut, "zoom in, out"),
     bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
     bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25, until rest"),
+    bind(&[K::char('%')], Action::Mouse, "mouse on, off"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
     bind(&[K::ctrl('z')], Action::Suspend, "suspend"),
     bind(&[K::plain(Code::Escape)], Action::Close, "close what is open"),
 ];
 
 /// What the keys do in the scene list, for the help; `scene_list` obeys them.
-const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
+pub(super) const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
 
 /// The rows that have an effect in this program: with one method there is no next one.
 pub fn table() -> impl Iterator<Item = &'static Binding> {
     TABLE.iter().filter(|row| row.action != Action::NextMethod || Method::ALL.len() > 1)
-}
-
-/// What `key` does.
-pub fn action(key: Key) -> Option<Action> {
-    table().find(|row| row.keys.contains(&key)).map(|row| row.action)
-}
-
-/// The help: (keys, what they do). Neighbours in the table that do sides of the same share a row, a key each.
-pub fn help_rows() -> Vec<(String, &'static str)> {
-    let bindings: Vec<&Binding> = table().collect();
-    let rows = bindings.chunk_by(|a, b| a.does == b.does).map(|same| {
-        let each = if same.len() > 1 { 1 } else { usize::MAX };
-        let keys = same.iter().flat_map(|row| row.keys.iter().take(each));
-        (keys.map(Key::to_string).collect::<Vec<_>>().join(" "), same[0].does)
-    });
-    rows.chain([(IN_THE_LIST.0.to_owned(), IN_THE_LIST.1)]).collect()
-}
-
-/// The hint line, the most needed first: (key, a word).
-pub fn hints() -> Vec<(String, &'static str)> {
-    table().filter_map(|row| row.hint.map(|word| (row.keys[0].to_string(), word))).collect()
-}
-
-/// What the hint line is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    /// Anywhere else.
-    Run,
-    /// A pause at a frame with an impact, whose search can be gone through or not.
-    Impact {
-        /// Whether its trial steps are known.
-        searched: bool,
-    },
-    /// An earlier frame.
-    Past,
-    /// The scene list.
-    List,
-    /// The help.
-    Help,
-}
-
-/// The hint line where it is wanted for something else than a run.
-pub(super) fn hints_at(place: Place) -> Vec<(String, &'static str)> {
-    let way: &[(Action, &'static str)] = match place {
-        Place::Run => return hints(),
-        Place::List => return plain(&[("j k", "move"), ("/", "filter"), ("Enter", "open"), ("Esc", "close")]),
-        Place::Help => return plain(&[("j k", "scroll"), ("Esc", "close")]),
-        Place::Past => &[
-            (Action::TogglePause, "go on here"),
-            (Action::Step, "on"),
-            (Action::StepBack, "back"),
-            (Action::PreviousImpact, "collision before"),
-            (Action::Newest, "newest"),
-        ],
-        Place::Impact { .. } => &[
-            (Action::TogglePause, "run"),
-            (Action::Step, "step"),
-            (Action::StepBack, "back"),
-            (Action::Card, "why"),
-            (Action::NextTrial, "search"),
-            (Action::NextImpact, "next"),
-            (Action::PreviousImpact, "before"),
-        ],
-    };
-    let out = [(Action::Help, "help"), (Action::Quit, "quit")];
-    let shown = |action: Action| action != Action::NextTrial || place == Place::Impact { searched: true };
-    let key = |action: Action| table().find(|row| row.action == action).map(|row| row.keys[0].to_string());
-    let all = way.iter().chain(&out).filter(|(action, _)| shown(*action));
-    all.filter_map(|(action, word)| Some((key(*action)?, *word))).collect()
-}
-
-fn plain(rows: &[(&str, &'static str)]) -> Vec<(String, &'static str)> {
-    rows.iter().map(|(key, word)| ((*key).to_owned(), *word)).collect()
 }
 
 /// The rows of a table of keys as slices.
@@ -262,23 +190,6 @@ mod tests {
         let keys: Vec<Key> = table().flat_map(|row| row.keys).copied().collect();
         for (i, key) in keys.iter().enumerate() {
             assert!(!keys[..i].contains(key), "{key}");
-        }
-    }
-
-    #[test]
-    fn the_hints_lead_to_the_help_and_out_on_80_columns_and_all_labels_are_plain_ascii() {
-        for place in [Place::Run, Place::Past, Place::Impact { searched: true }] {
-            let mut column = 0;
-            for (key, word) in hints_at(place) {
-                column += key.len() + 1 + word.len() + 2;
-                if word == "quit" {
-                    break;
-                }
-            }
-            assert!(column <= 80, "{place:?}: `quit` ends in column {column}");
-        }
-        for (keys, does) in help_rows() {
-            assert!(keys.is_ascii() && does.is_ascii(), "{keys} {does}");
         }
     }
 

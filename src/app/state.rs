@@ -5,13 +5,16 @@ use std::{path::PathBuf, sync::Arc};
 use ratatui::layout::Rect;
 
 use super::{
+    action::Action,
     comparison::Comparison,
     current::Current,
+    hints::Place,
     input::Setup,
-    keys::{Place, help_rows},
+    keymap::Keymap,
     knobs,
     line::{Line, Orders},
     loading::Loading,
+    mouse::Pointer,
     prompt::Context,
     scene_list::{self, SceneList},
     view_settings,
@@ -20,12 +23,9 @@ use crate::{
     printable,
     scene::{self, Settings},
     snapshot::Class,
-    view::{Colors, Marker, ViewSettings},
+    view::ViewSettings,
     worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
-
-/// What to do where a run cannot go on; why it cannot is on the screen already.
-pub(super) const STALLED: &str = "The run cannot go on from here: m changes the method, r restarts.";
 
 /// What is open over the views.
 #[derive(Debug)]
@@ -67,6 +67,8 @@ pub(super) struct State {
     pub(super) answer: Option<String>,
     /// What happened unasked and is worth a line, until the next key.
     pub(super) news: Option<String>,
+    pub(super) keymap: Keymap,
+    pub(super) pointer: Pointer,
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
@@ -84,6 +86,8 @@ impl State {
         let about = current.scene.about.clone();
         let entry = scene_list::Entry { name: current.name.clone(), about };
         let given = current.path.clone().map(|path| (entry, path));
+        let view_settings =
+            ViewSettings { marker: setup.marker, colors: setup.colors, inks: setup.inks, ..ViewSettings::default() };
         let mut state = State {
             worker,
             report,
@@ -99,13 +103,15 @@ impl State {
             loading: None,
             errands: None,
             notify,
-            view_settings: first_view_settings(setup.marker, setup.colors),
+            view_settings,
             open: Open::Nothing,
             orders: Orders::default(),
             answer: None,
             news: None,
             area: Rect::default(),
-            help: help_rows(),
+            help: setup.keymap.help_rows(),
+            keymap: setup.keymap,
+            pointer: Pointer::default(),
         };
         state.warn();
         if !setup.paused {
@@ -168,11 +174,20 @@ impl State {
         self.worker.send(command);
     }
 
+    /// What to do where a run cannot go on; why it cannot is on the screen already.
+    pub(super) fn stalled(&self) -> String {
+        let ways = [(Action::NextMethod, "changes the method"), (Action::Restart, "restarts")];
+        let way = |(action, does): (Action, &str)| self.keymap.keys(action).first().map(|key| format!("{key} {does}"));
+        let ways: Vec<String> = ways.into_iter().filter_map(way).collect();
+        let ways = if ways.is_empty() { String::new() } else { format!(": {}", ways.join(", ")) };
+        format!("The run cannot go on from here{ways}.")
+    }
+
     /// A stalled run can't go on: says why, and whether that was so.
     pub(super) fn say_if_stalled(&mut self) -> bool {
         let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
         if stalled {
-            self.say(STALLED);
+            self.say(self.stalled());
         }
         stalled
     }
@@ -231,9 +246,4 @@ impl State {
             Err(said) => self.say(said),
         }
     }
-}
-
-/// Both views, the whole scene, nothing selected.
-fn first_view_settings(marker: Marker, colors: Colors) -> ViewSettings {
-    ViewSettings { marker, colors, ..ViewSettings::default() }
 }

@@ -13,14 +13,17 @@
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
+//! | `talk`, `lines` | the application without a screen: lines are keys |
 //! | the rest | one command each |
 
 mod accuracy;
 mod arguments;
 mod check;
 mod completions;
+mod defaults;
 mod failure;
 mod judge;
+mod lines;
 mod list;
 mod man;
 mod measure;
@@ -34,6 +37,7 @@ mod rows;
 mod run;
 mod show;
 mod signals;
+mod talk;
 mod target;
 mod verify;
 
@@ -78,6 +82,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Render(arguments) => render::render(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
         Command::Verify(arguments) => verify::verify(arguments, signals),
+        Command::Config => defaults::defaults(),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

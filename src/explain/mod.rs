@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `card` | one contact: class and rule, speeds, impulse, energy, how deep, why it rests |
 //! | `approach` | how its time follows from a polynomial |
+//! | `sentence` | a contact in one line |
 //! | `line` | a line of text and what it is about |
 //!
 //! [`Snapshot`]: crate::snapshot::Snapshot
@@ -14,6 +15,8 @@
 mod approach;
 mod card;
 mod line;
+mod sentence;
 
 pub use card::{Card, card};
 pub use line::Line;
+pub use sentence::sentence;

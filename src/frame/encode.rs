@@ -19,18 +19,32 @@ const ERASE_FROM: usize = 4;
 /// Turns buffers into bytes; remembers what the terminal shows.
 ///
 /// The terminal has to be in raw mode: a line feed must not return the carriage.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Encoder {
     /// What was encoded last, row by row; `None`: what the terminal shows is unknown.
     sent: Option<Buffer>,
     /// Where its cursor is shown.
     cursor: Option<Position>,
+    /// Whether it may know synchronized updates.
+    brackets: bool,
+}
+
+impl Default for Encoder {
+    fn default() -> Encoder {
+        Encoder { sent: None, cursor: None, brackets: true }
+    }
 }
 
 impl Encoder {
     /// An encoder for a terminal about which nothing is known.
     pub fn new() -> Encoder {
         Encoder::default()
+    }
+
+    /// Whether frames go in the brackets of synchronized updates, as they do at first: a terminal that does not know them
+    /// leaves them out.
+    pub fn bracket(&mut self, brackets: bool) {
+        self.brackets = brackets;
     }
 
     /// Forgets what the terminal shows: the next frame is a full one. Due after anything else was written to it.
@@ -65,7 +79,7 @@ impl Encoder {
         let mut sent = known.unwrap_or_default();
         sent.clone_from(next);
         self.sent = Some(sent);
-        writer.finish()
+        writer.finish(self.brackets)
     }
 }
 
@@ -89,9 +103,9 @@ impl Writer {
         Writer { out: Vec::new(), pen: Pen::DEFAULT, place: None }
     }
 
-    /// The bytes in their brackets; none if there are none.
-    fn finish(self) -> Vec<u8> {
-        if self.out.is_empty() {
+    /// The bytes, in their brackets if they have any; none if there are none.
+    fn finish(self, brackets: bool) -> Vec<u8> {
+        if self.out.is_empty() || !brackets {
             return self.out;
         }
         [b"\x1b[?2026h", &self.out[..], b"\x1b[?2026l"].concat()

@@ -13,8 +13,8 @@ use super::parse::parse;
 use super::validated::Scene;
 use crate::printable;
 
-/// Largest file that is read, bytes.
-const LARGEST_FILE: u64 = 16 << 20;
+/// Largest file that is read, MiB.
+const LARGEST_FILE: u64 = 16;
 
 /// A scene and where it came from.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +66,14 @@ fn unknown(name: &str) -> String {
 /// # Errors
 /// What the file is instead, how large, or why it cannot be read.
 pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
+    contents_within(path, wanted, LARGEST_FILE)
+}
+
+/// The same of a file of `most` MiB at most.
+///
+/// # Errors
+/// What the file is instead, how large, or why it cannot be read.
+pub(crate) fn contents_within(path: &Path, wanted: &str, most: u64) -> Result<Vec<u8>, String> {
     let unreadable = |error: std::io::Error| format!("the file cannot be read: {}", printable::cause(&error));
     let about = fs::metadata(path).map_err(unreadable)?;
     // Asked before it is opened: opening a pipe would wait for a writer, and a device may have no end.
@@ -74,16 +82,16 @@ pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
         return Err(format!("it is {what}; allowed is {wanted}"));
     }
     let mut bytes = Vec::new();
-    fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE {
+    fs::File::open(path).and_then(|file| file.take((most << 20) + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > most << 20 {
         let size = about.len().max(bytes.len() as u64);
-        return Err(format!("the file of {size} bytes is refused; allowed are up to 16 MiB"));
+        return Err(format!("the file of {size} bytes is refused; allowed are up to {most} MiB"));
     }
     Ok(bytes)
 }
 
 /// The refusal of bytes that are not UTF-8, at the first of them.
-fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Error {
+pub(crate) fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Error {
     let (valid, wrong) = error.as_bytes().split_at(error.utf8_error().valid_up_to());
     let text = str::from_utf8(valid).unwrap_or_default();
     let place = position(text, text.len());

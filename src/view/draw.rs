@@ -127,6 +127,6 @@ pub fn visible_span(settings: &ViewSettings, stage: &Stage, area: Rect) -> DVec3
 }
 
 /// The extent of the scene's own view box, m.
-fn extent(stage: &Stage) -> DVec3 {
+pub(super) fn extent(stage: &Stage) -> DVec3 {
     stage.view.max - stage.view.min
 }

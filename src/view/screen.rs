@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::ink::{Background, Inks};
 use crate::snapshot::{Ghost, Kept, Snapshot, Ticks, Trade};
 
 /// Everything one frame shows.
@@ -85,6 +86,10 @@ pub struct ViewSettings {
     pub marker: Marker,
     /// Depth of colour.
     pub colors: Colors,
+    /// What is behind the text.
+    pub background: Background,
+    /// The user's own colours.
+    pub inks: Inks,
 }
 
 impl Default for ViewSettings {
@@ -102,6 +107,8 @@ impl Default for ViewSettings {
             ghost: false,
             marker: Marker::Braille,
             colors: Colors::Ansi16,
+            background: Background::default(),
+            inks: Inks::default(),
         }
     }
 }

@@ -30,12 +30,7 @@ pub(super) struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     /// A sheet over the buffer.
     pub(super) fn new(buffer: &'a mut Buffer, settings: &ViewSettings) -> Sheet<'a> {
-        Sheet {
-            buffer,
-            palette: Palette::new(settings.colors),
-            marker: settings.marker,
-            glyphs: glyphs(settings.marker),
-        }
+        Sheet { buffer, palette: Palette::new(settings), marker: settings.marker, glyphs: glyphs(settings.marker) }
     }
 
     /// Blanks an area.

@@ -12,14 +12,9 @@ use crate::format;
 /// Draws the timeline: 0, a tick for every column with impacts, higher for more, a cursor at t, the end, and as much of
 /// what is said to the right as fits.
 pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
-    let snapshot = screen.snapshot;
-    let end = end(snapshot.t.max(screen.kept.until), snapshot.stage.duration);
+    let Parts { end, track, right, right_area } = Parts::of(screen, area);
     let faint = sheet.palette.faint();
-    let used = sheet.put(area, " 0 ", faint);
-    let (_, rest) = split_left(area, used);
-    let right = right(screen, end, rest.width);
-    let columns = (sheet::width(&right) as u16).min(rest.width);
-    let (track, right_area) = split_right(rest, columns);
+    sheet.put(area, BEGIN, faint);
     sheet.put(right_area, &right, faint);
     draw_track(screen, end, track, sheet);
 }
@@ -39,6 +34,38 @@ fn right(screen: &Screen, end: f64, columns: u16) -> String {
         right += &format!(" kept from {} s ", format::setting(kept.from));
     }
     right
+}
+
+/// Before the track.
+const BEGIN: &str = " 0 ";
+
+/// What the timeline is made of.
+struct Parts {
+    /// The time at the track's end, s.
+    end: f64,
+    track: Rect,
+    /// What stands behind the track, and where.
+    right: String,
+    right_area: Rect,
+}
+
+impl Parts {
+    fn of(screen: &Screen, area: Rect) -> Parts {
+        let snapshot = screen.snapshot;
+        let end = end(snapshot.t.max(screen.kept.until), snapshot.stage.duration);
+        let (_, rest) = split_left(area, BEGIN.len() as u16);
+        let right = right(screen, end, rest.width);
+        let columns = (sheet::width(&right) as u16).min(rest.width);
+        let (track, right_area) = split_right(rest, columns);
+        Parts { end, track, right, right_area }
+    }
+}
+
+/// The time, s, in the middle of a column of the track; none beside it. That of the first column is 0.
+pub(super) fn time_at(screen: &Screen, area: Rect, column: u16) -> Option<f64> {
+    let Parts { end, track, .. } = Parts::of(screen, area);
+    let at = column.checked_sub(track.x).filter(|at| *at < track.width)?;
+    Some(if at == 0 { 0.0 } else { end * (f64::from(at) + 0.5) / f64::from(track.width) })
 }
 
 /// The time at the track's end, s: the scene's duration, doubled as long as the run is beyond it.

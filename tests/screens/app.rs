@@ -6,11 +6,11 @@ use std::{
 };
 
 use carom::{
-    app::{Action, App, Code, Effect, Input, Key, Setup, table},
+    app::{Action, App, Code, Effect, Input, Key, Keymap, Setup, table},
     physics::{Progress, Settings, Simulation, Until},
     scene,
     snapshot::{Class, Snapshot, Stage},
-    view::{Colors, Marker, Views},
+    view::{Colors, Inks, Marker, Views},
     worker::{Activity, Bodies, Command, Job, Notify, Stop, Worker},
 };
 use ratatui::{buffer::Buffer, layout::Rect};
@@ -34,9 +34,15 @@ pub(crate) struct User {
 
 impl User {
     pub(crate) fn at(scene: &str, paused: bool) -> User {
+        User::bound(scene, paused, Keymap::default())
+    }
+
+    /// With keys bound otherwise.
+    pub(crate) fn bound(scene: &str, paused: bool, keymap: Keymap) -> User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
-        let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16 };
+        let inks = Inks::default();
+        let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16, inks, keymap };
         let (sender, news) = mpsc::channel();
         let app = App::new(setup, tell(sender)).expect("there is a thread to be had");
         let mut user = User { app, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };

@@ -127,9 +127,15 @@ pub(super) fn closed<'a>(model: &'a Model, contacts: &[IslandContact]) -> Vec<Cl
 }
 
 impl Curve {
-    /// The motion of bodies from now on.
-    pub(super) fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<IslandContact>, now: f64) -> Curve {
-        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts)));
+    /// The motion of bodies from now on, whose contacts carry these forces (N).
+    pub(super) fn new(
+        model: &Model,
+        bodies: Vec<Body>,
+        (contacts, forces): (Vec<IslandContact>, &[f64]),
+        now: f64,
+    ) -> Curve {
+        let loaded = forces.iter().map(|&force| force > 0.0).collect();
+        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts), loaded));
         Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
