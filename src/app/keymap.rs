@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(keymap.action(Key::plain(Code::F(5))), Some(Action::Step));
         assert_eq!(keymap.action(Key::char('.')), None);
         assert!(keymap.hints().contains(&("y".into(), "step")));
-        assert!(keymap.help_rows().contains(&("w F5".into(), "step one frame")));
+        assert!(keymap.help_rows().contains(&("y F5".into(), "step one frame")));
         keymap.bind(Action::Step, &[]);
         assert!(!keymap.help_rows().iter().any(|(_, does)| *does == "step one frame"));
         assert!(!keymap.hints().iter().any(|(_, word)| *word == "step"));

@@ -53,6 +53,7 @@ pub(crate) const METHODS: &[&str] = &["paper", "swept", "exact", "moreau"];
 pub(crate) const HOMES: &[(&str, &[&str])] = &[
     ("crossterm", &["terminal"]),
     ("signal_hook", &["terminal", "cli"]),
+    ("tui_input", &["app"]),
     ("ron", &["scene"]),
     ("serde_path_to_error", &["scene"]),
     ("serde", &["scene", "config", "export"]),
