@@ -30,6 +30,8 @@ mod frames;
 mod keymap;
 #[path = "screens/look.rs"]
 mod look;
+#[path = "screens/many.rs"]
+mod many;
 #[path = "screens/mouse.rs"]
 mod mouse;
 #[path = "support/stages.rs"]

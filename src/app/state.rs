@@ -46,6 +46,8 @@ pub(super) struct State {
     pub(super) has_target: bool,
     /// The exact run beside it, if it was asked for.
     pub(super) comparison: Option<Comparison>,
+    /// Whether the last key was told what the exact run costs.
+    pub(super) cost_told: bool,
     /// The exact run shown before, while its thread ends.
     pub(super) ending: Option<Ending>,
     /// The scene that comes next, if one is being opened, and the channel that it arrives on.
@@ -90,6 +92,7 @@ impl State {
             running: false,
             has_target: false,
             comparison: None,
+            cost_told: false,
             ending: None,
             loading: None,
             errands: None,
