@@ -9,14 +9,19 @@ use super::{
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
     state::{Open, State},
+    until::Named,
     view_settings,
 };
 use crate::{
     printable,
     scene::Settings,
-    view,
-    worker::{Activity, Command},
+    snapshot::Class,
+    view::{self, CardView},
+    worker::{Activity, Bodies, Command, Stop},
 };
+
+/// Rows by which PageUp and PageDown move a card.
+const CARD_PAGE: usize = 5;
 
 /// Longest text the prompt takes; more than any order needs.
 const PROMPT: usize = 200;
@@ -55,7 +60,11 @@ impl State {
                     None => return self.act_on(key),
                 }
             }
-            Open::Nothing => return self.act_on(key),
+            Open::Nothing => {
+                if !self.turns_card(key) {
+                    return self.act_on(key);
+                }
+            }
         }
         Effect::DrawNow
     }
@@ -91,8 +100,16 @@ impl State {
             Action::Suspend => return Effect::Suspend,
             Action::Repaint => return Effect::Repaint,
             Action::TogglePause => self.toggle_pause(),
-            Action::Step => self.advance(Command::Step),
-            Action::NextImpact => self.advance(Command::NextImpact),
+            Action::Step => self.advance(Command::Forward(1)),
+            Action::TenOn => self.advance(Command::Forward(10)),
+            Action::StepBack => self.head_for(Command::Back(1), true),
+            Action::TenBack => self.head_for(Command::Back(10), true),
+            Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
+            Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
+            Action::Oldest => self.head_for(Command::Oldest, true),
+            Action::Newest => self.head_for(Command::Newest, true),
+            Action::Until => self.open = Open::Prompt("until ".into()),
+            Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
             Action::Reload => self.reload(),
             Action::PreviousScene => self.neighbor_scene(-1),
@@ -118,7 +135,10 @@ impl State {
             Action::Follow => self.follow(),
             Action::SelectNext => self.select(true),
             Action::SelectPrevious => self.select(false),
-            Action::Inspector => self.toggle_inspector(),
+            Action::Inspector => self.next_inspector(),
+            Action::Card => self.toggle_card(),
+            Action::PreviousTrial => self.turn_trial(false),
+            Action::NextTrial => self.turn_trial(true),
             Action::NextOverlays => self.next_overlays(),
             Action::Mouse => self.toggle_mouse(),
         }
@@ -132,6 +152,9 @@ impl State {
         }
         if self.has_target {
             self.run(false);
+        }
+        if matches!(self.open, Open::Nothing) {
+            self.view_settings.card = None;
         }
         self.open = Open::Nothing;
     }
@@ -157,7 +180,7 @@ impl State {
     /// Steps or runs on from a pause.
     fn advance(&mut self, command: Command) {
         if !self.say_if_stalled() {
-            let on = !matches!(command, Command::Step);
+            let on = !matches!(command, Command::Forward(1));
             self.head_for(command, on);
         }
     }
@@ -256,13 +279,70 @@ impl State {
         }
     }
 
-    fn toggle_inspector(&mut self) {
-        self.view_settings.inspector = !self.view_settings.inspector;
-        self.say(if self.view_settings.inspector {
-            "Inspector on."
-        } else {
-            "Inspector off, where the screen has no room."
-        });
+    /// From the numbers to a contact's card, to nothing, and round again.
+    fn next_inspector(&mut self) {
+        let settings = &mut self.view_settings;
+        let shown = view::inspector_is_shown(settings, self.area);
+        let (inspector, card) = match (shown, settings.card) {
+            (false, _) => (true, None),
+            (true, None) => (true, Some(CardView::default())),
+            (true, Some(_)) => (false, None),
+        };
+        (settings.inspector, settings.card) = (Some(inspector), card);
+    }
+
+    fn toggle_card(&mut self) {
+        self.view_settings.card = match self.view_settings.card {
+            Some(_) => None,
+            None => Some(CardView::default()),
+        };
+    }
+
+    /// Goes through the trial steps of the frame's search, from the first to the last and back to the frame's end.
+    fn turn_trial(&mut self, forward: bool) {
+        let trials = self.report.snapshot.trials.len();
+        if trials == 0 {
+            let searched = !self.report.snapshot.probes.is_empty();
+            return self.say(if searched {
+                "This frame's trial steps are not kept: they have too many spheres, or one came back to it."
+            } else {
+                "This frame has searched for no collision time: c goes to a collision."
+            });
+        }
+        let card = self.view_settings.card.get_or_insert_default();
+        card.probe = match (card.probe, forward) {
+            (None, true) => Some(0),
+            (None, false) => Some(trials - 1),
+            (Some(at), true) => Some(at + 1).filter(|at| *at < trials),
+            (Some(at), false) => at.checked_sub(1),
+        };
+    }
+
+    /// Moves the card that is open; whether that is what the key does.
+    fn turns_card(&mut self, key: Key) -> bool {
+        let Some(card) = &mut self.view_settings.card else { return false };
+        let last = self.report.snapshot.contacts.len().saturating_sub(1);
+        let cursor = card.cursor.min(last);
+        let turned = match key {
+            Key { shift: false, ctrl: false, alt: false, code } => match code {
+                Code::Down => CardView { cursor: (cursor + 1).min(last), scroll: 0, ..*card },
+                Code::Up => CardView { cursor: cursor.saturating_sub(1), scroll: 0, ..*card },
+                Code::PageDown => CardView { cursor, scroll: card.scroll + CARD_PAGE, ..*card },
+                Code::PageUp => CardView { cursor, scroll: card.scroll.saturating_sub(CARD_PAGE), ..*card },
+                _ => return false,
+            },
+            _ => return false,
+        };
+        *card = turned;
+        true
+    }
+
+    /// Goes on until what was waited for last comes again.
+    fn until_again(&mut self) {
+        match self.until {
+            Some(stop) => self.advance(Command::Until(stop)),
+            None => self.say("Nothing was waited for yet; u asks until what to run."),
+        }
     }
 
     /// Goes to the time `t`, s.
@@ -272,12 +352,19 @@ impl State {
     }
 
     fn order(&mut self, text: &str) {
-        match prompt::read(text) {
+        let stage = &self.current.stage;
+        let (spheres, walls) = (stage.radii.len(), stage.walls.len());
+        let named = Named { spheres, walls, selected: self.view_settings.selected };
+        match prompt::read(text, named) {
             Ok(None) => {}
             Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
             Ok(Some(Order::Goto(t))) => self.goto(t),
+            Ok(Some(Order::Until(stop))) => {
+                self.until = Some(stop);
+                self.until_again();
+            }
             Ok(Some(Order::Hash)) => {
                 let snapshot = &self.report.snapshot;
                 self.say(format!("t={:?} hash={:016x}", snapshot.t, snapshot.hash()));

@@ -6,6 +6,7 @@ use super::{
     comparison::Comparison,
     input::{Effect, Input, Setup},
     keys::pairs,
+    said,
     state::{Open, State},
 };
 use crate::{
@@ -115,12 +116,24 @@ impl App {
         if let Some(said) = &self.state.report.panic {
             return Effect::Fail(said.clone());
         }
+        if before.snapshot.t != self.state.report.snapshot.t
+            && let Some(card) = &mut self.state.view_settings.card
+        {
+            (card.probe, card.scroll) = (None, 0); // another frame, another search
+        }
         if let Some(comparison) = &mut self.state.comparison {
             comparison.follow(&before, &self.state.report);
         }
         if self.state.report.obeyed == self.state.worker.sent() {
             self.state.running = self.state.report.activity == Activity::Running;
             self.state.has_target &= self.state.running;
+            self.state.settings = self.state.report.settings;
+        }
+        if let Some((count, said)) = &self.state.report.said
+            && before.said.is_none_or(|(before, _)| before < *count)
+        {
+            let sentence = said::sentence(said, self.state.report.snapshot.stage.duration);
+            self.state.tell(sentence);
         }
         if self.state.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
             self.state.tell(self.state.stalled());
@@ -141,15 +154,18 @@ impl App {
 /// The screen of a state, lent to `show`.
 fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
     let message = state.message();
+    let snapshot = &state.report.snapshot;
+    let trial = state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
     let (help, hints) = (pairs(&state.help), pairs(&state.hints));
     let entries: Vec<(&str, &str)> = match &state.open {
         Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
         _ => Vec::new(),
     };
     show(&Screen {
-        snapshot: &state.report.snapshot,
+        snapshot: trial.as_ref().unwrap_or(snapshot),
         pace: pace(&state.report),
         ticks: &state.report.ticks,
+        kept: state.report.kept,
         comparison: state.comparison.as_ref().map(Comparison::shown),
         view_settings: &state.view_settings,
         popup: match &state.open {
@@ -170,6 +186,7 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
 
 fn pace(report: &Report) -> Pace {
     let mode = match report.activity {
+        _ if report.kept.is_past => Mode::Back,
         Activity::Running => Mode::Run,
         Activity::Paused => Mode::Pause,
         Activity::Stalled => Mode::Stalled,

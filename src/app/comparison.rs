@@ -61,9 +61,12 @@ impl Comparison {
     pub(super) fn follow(&mut self, before: &Report, after: &Report) {
         let (from, to) = (&before.snapshot, &after.snapshot);
         if Arc::ptr_eq(&self.stage, &to.stage) {
-            match to.t < from.t || !Arc::ptr_eq(&from.stage, &to.stage) {
-                true => self.trade = Trade::new(to.stage.duration),
-                false => self.add_costs(before, after),
+            // a run that was gone back in has told its costs when it was there first
+            let shorter = after.kept.newest < before.kept.newest || !Arc::ptr_eq(&from.stage, &to.stage);
+            if shorter {
+                self.trade = Trade::new(to.stage.duration);
+            } else if to.t > from.t && !after.kept.is_past {
+                self.add_costs(before, after);
             }
             if !Arc::ptr_eq(from, to) {
                 self.follower.compare(to);

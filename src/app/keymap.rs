@@ -123,11 +123,11 @@ mod tests {
     #[test]
     fn a_key_that_is_bound_anew_does_the_new_thing_and_help_and_hints_say_so() {
         let mut keymap = Keymap::default();
-        keymap.bind(Action::Step, &[Key::char('w'), Key::plain(Code::F(5))]);
-        assert_eq!(keymap.action(Key::char('w')), Some(Action::Step));
+        keymap.bind(Action::Step, &[Key::char('y'), Key::plain(Code::F(5))]);
+        assert_eq!(keymap.action(Key::char('y')), Some(Action::Step));
         assert_eq!(keymap.action(Key::plain(Code::F(5))), Some(Action::Step));
         assert_eq!(keymap.action(Key::char('.')), None);
-        assert!(keymap.hints().contains(&("w".into(), "step")));
+        assert!(keymap.hints().contains(&("y".into(), "step")));
         assert!(keymap.help_rows().contains(&("w F5".into(), "step one frame")));
         keymap.bind(Action::Step, &[]);
         assert!(!keymap.help_rows().iter().any(|(_, does)| *does == "step one frame"));
@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(keymap.clash(Action::Step, Key::char('q')), Some(Clash::Taken(Action::Quit)));
         keymap.bind(Action::Quit, &[Key::char('Q')]);
         assert_eq!(keymap.clash(Action::Step, Key::char('q')), None);
-        keymap.bind(Action::Step, &[Key::char('w'), Key::char('w')]);
-        assert_eq!(keymap.clash(Action::Step, Key::char('w')), Some(Clash::Twice));
+        keymap.bind(Action::Step, &[Key::char('y'), Key::char('y')]);
+        assert_eq!(keymap.clash(Action::Step, Key::char('y')), Some(Clash::Twice));
     }
 }

@@ -13,6 +13,7 @@
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
 //! | `mouse`, `pointer` | the mouse, and what it does |
 //! | `comparison` | the exact run beside the one shown |
 
@@ -31,8 +32,10 @@ mod mouse;
 mod opening;
 mod pointer;
 mod prompt;
+mod said;
 mod scene_list;
 mod state;
+mod until;
 mod view_settings;
 
 pub use action::{Action, Direction};

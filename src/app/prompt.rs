@@ -1,4 +1,7 @@
-//! The `:` line: exact values.
+//! The `:` line: exact values, and what to run until.
+
+use super::until::{self, Named};
+use crate::worker::Stop;
 
 /// What was asked for on the `:` line; every value is already within its rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +14,8 @@ pub(super) enum Order {
     Speed(f64),
     /// Time to go to, s, ≥ 0.
     Goto(f64),
+    /// Run until this comes.
+    Until(Stop),
     /// Say the time and the hash of the state shown, as the closing line of `carom run` does.
     Hash,
     /// Panic, so that a test can see what a user would; not in the release program.
@@ -47,16 +52,23 @@ const WORDS: &[Word] = &[
 /// The word that takes no value.
 const HASH: &str = "hash";
 
-/// Reads the text after the colon; `None` if there is none.
+/// The word that takes a language of its own.
+const UNTIL: &str = "until";
+
+/// Reads the text after the colon, in which these bodies can be named; `None` if there is no text.
 ///
 /// # Errors
 /// A sentence that names the offending word and what is allowed.
-pub(super) fn read(text: &str) -> Result<Option<Order>, String> {
+pub(super) fn read(text: &str, named: Named) -> Result<Option<Order>, String> {
     let mut parts = text.split_whitespace();
     let Some(name) = parts.next() else { return Ok(None) };
     #[cfg(debug_assertions)]
     if name == "panic" {
         return Ok(Some(Order::Panic { simulation: parts.next().is_some() }));
+    }
+    if name == UNTIL {
+        let rest = text.trim_start().strip_prefix(UNTIL).unwrap_or("");
+        return until::read(rest, named).map(|stop| Some(Order::Until(stop)));
     }
     if name == HASH {
         return match parts.next() {
@@ -65,7 +77,7 @@ pub(super) fn read(text: &str) -> Result<Option<Order>, String> {
         };
     }
     let Some(word) = WORDS.iter().find(|word| word.name == name) else {
-        let known: Vec<&str> = WORDS.iter().map(|word| word.name).chain([HASH]).collect();
+        let known: Vec<&str> = WORDS.iter().map(|word| word.name).chain([UNTIL, HASH]).collect();
         return Err(format!("There is no :{name}; there are {}.", known.join(", ")));
     };
     let value = parts.collect::<Vec<_>>().join(" ");
@@ -81,6 +93,11 @@ pub(super) fn read(text: &str) -> Result<Option<Order>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{snapshot::Class, worker::Bodies};
+
+    fn read(text: &str) -> Result<Option<Order>, String> {
+        super::read(text, Named { spheres: 3, walls: 1, selected: None })
+    }
 
     #[test]
     fn every_word_takes_its_value() {
@@ -88,13 +105,19 @@ mod tests {
         assert_eq!(read(" tolerance  0 "), Ok(Some(Order::Tolerance(0.0))));
         assert_eq!(read("speed .1"), Ok(Some(Order::Speed(0.1))));
         assert_eq!(read("goto 3.25"), Ok(Some(Order::Goto(3.25))));
+        let stop = Stop::Event(Class::Collide, Bodies::Pair(0, 2));
+        assert_eq!(
+            read(" until collision 2 0"),
+            Ok(Some(Order::Until(Stop::Event(Class::Collide, Bodies::Pair(2, 0)))))
+        );
+        assert_eq!(read("until collision 0 2"), Ok(Some(Order::Until(stop))));
         assert_eq!(read("hash"), Ok(Some(Order::Hash)));
         assert_eq!(read("  "), Ok(None));
     }
 
     #[test]
     fn an_error_names_the_value_and_what_is_allowed() {
-        assert_eq!(read("dtt 1"), Err("There is no :dtt; there are dt, tolerance, speed, goto, hash.".into()));
+        assert_eq!(read("dtt 1"), Err("There is no :dtt; there are dt, tolerance, speed, goto, until, hash.".into()));
         assert_eq!(read("hash 1"), Err(":hash takes no value: it tells the hash of the state shown.".into()));
         assert_eq!(read("dt"), Err(":dt needs a number (seconds above 0), as in :dt 1e-3.".into()));
         for bad in ["0", "-1", "nan", "inf", "1 2", "1e-3s"] {

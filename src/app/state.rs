@@ -10,6 +10,7 @@ use super::{
     current::Current,
     input::Setup,
     keymap::Keymap,
+    knobs,
     loading::Loading,
     mouse::Pointer,
     scene_list::{self, SceneList},
@@ -19,7 +20,7 @@ use crate::{
     printable,
     scene::{self, Settings},
     view::ViewSettings,
-    worker::{Activity, Command, Ending, Errands, Notify, Report, Worker},
+    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
 
 /// What is open over the views.
@@ -44,6 +45,8 @@ pub(super) struct State {
     pub(super) running: bool,
     /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
     pub(super) has_target: bool,
+    /// What was waited for last.
+    pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.
     pub(super) comparison: Option<Comparison>,
     /// Whether the last key was told what the exact run costs.
@@ -91,6 +94,7 @@ impl State {
             speed: 1.0,
             running: false,
             has_target: false,
+            until: None,
             comparison: None,
             cost_told: false,
             ending: None,
@@ -169,6 +173,7 @@ impl State {
         self.run(running);
         view_settings::whole_scene(&mut self.view_settings);
         self.view_settings.selected = None;
+        self.until = None;
         if self.comparison.is_some() {
             self.compare();
         }
@@ -194,6 +199,9 @@ impl State {
     pub(super) fn solve_with(&mut self, settings: Result<Settings, String>) {
         match settings {
             Ok(settings) => {
+                if let Some(said) = knobs::in_vain(self.settings, settings) {
+                    self.say(said);
+                }
                 self.settings = settings;
                 self.worker.send(Command::Settings(settings));
             }

@@ -14,7 +14,7 @@ use super::signals::Signals;
 use crate::audit::Watch;
 use crate::physics::{Class, Progress, Simulation, Stall, State};
 use crate::scene::{self, Opened, Settings};
-use crate::snapshot::{Snapshot, Stage, Ticks};
+use crate::snapshot::{Kept, Snapshot, Stage, Ticks};
 use crate::view::{self, Mode, Pace, Popup, Screen, ViewSettings};
 use crate::{app, frame};
 
@@ -47,6 +47,7 @@ struct Shown {
 fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Result<Shown, Failure> {
     let mut simulation = Simulation::new(&opened.scene, settings);
     simulation.record_events(true);
+    simulation.explain(true);
     let (mut ticks, mut impacts) = (Ticks::new(opened.scene.duration), 0);
     let mut watch = Watch::new(&simulation);
     let slice = Simulation::SLICE.min(watch.slice(simulation.model()));
@@ -115,6 +116,7 @@ fn draw(shown: &Shown, view_settings: &ViewSettings, (columns, rows): (u16, u16)
         snapshot: &shown.snapshot,
         pace: Pace { mode, wanted: 1.0, reached: None },
         ticks: &shown.ticks,
+        kept: Kept::default(),
         comparison: None,
         view_settings,
         popup: Popup::None,

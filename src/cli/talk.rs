@@ -12,10 +12,10 @@ use super::lines;
 use super::output::Output;
 use super::signals::Signals;
 use crate::app::{Action, App, Code, Effect, Input, Key, Keymap, Setup};
+use crate::explain;
 use crate::format;
 use crate::printable;
 use crate::snapshot::Class;
-use crate::view;
 
 /// How often it is asked whether a signal has come.
 const LOOK: Duration = Duration::from_millis(100);
@@ -226,7 +226,7 @@ impl Talk {
             writeln!(self.out, "At {} seconds.", format::spoken(snapshot.t))?;
             let impacts = snapshot.contacts.iter().filter(|contact| contact.class == Class::Collide);
             for contact in impacts.clone().take(CARDS) {
-                writeln!(self.out, "{}", view::contact_card(contact))?;
+                writeln!(self.out, "{}", explain::sentence(contact))?;
             }
             let more = impacts.count().saturating_sub(CARDS);
             if more > 0 {
@@ -251,10 +251,16 @@ impl Talk {
         let contacts = &self.app.report().snapshot.contacts;
         match (number.trim().parse::<usize>(), contacts.len()) {
             (_, 0) => writeln!(self.out, "There are no contacts in this frame.")?,
-            (Ok(index), count) if index < count => writeln!(self.out, "{}", view::contact_card(&contacts[index]))?,
+            (Ok(index), count) if index < count => {
+                writeln!(self.out, "{}", explain::sentence(&contacts[index]))?;
+                let card = explain::card(&self.app.report().snapshot, index, " and ");
+                for line in card.iter().flat_map(|card| &card.lines) {
+                    writeln!(self.out, "{}: {}.", line.label, line.text)?;
+                }
+            }
             (Err(_), _) if number.trim().is_empty() => {
                 for (index, contact) in contacts.iter().enumerate().take(100) {
-                    writeln!(self.out, "{index}. {}", view::contact_card(contact))?;
+                    writeln!(self.out, "{index}. {}", explain::sentence(contact))?;
                 }
             }
             (_, count) => writeln!(self.out, "{number} is not allowed: there are contacts 0 to {}.", count - 1)?,

@@ -36,7 +36,7 @@ fn quartic_falls(c: &[f64; 5], before: f64) -> ([f64; 3], usize) {
 }
 
 /// |x + v t + a t²/2|² − reach², lowest power first.
-fn distance_polynomial(path: &Path, reach: f64) -> [f64; 5] {
+pub(super) fn distance_polynomial(path: &Path, reach: f64) -> [f64; 5] {
     let Path { x, v, a } = *path;
     [
         x.length_squared() - reach * reach,
@@ -158,9 +158,14 @@ pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64>
         if t >= before {
             return None;
         }
+        if search.is_out_of_reach() {
+            return None;
+        }
         if let Some(t) = search.verified(t) {
             return Some(t);
         }
+    } else if search.is_out_of_reach() {
+        return None;
     }
     search.everywhere(height)
 }
@@ -174,6 +179,13 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Whether the wall is certainly too far away: tiles beside the one that a sphere bounces on, of which the closest point
+    /// takes longer to find.
+    fn is_out_of_reach(&self) -> bool {
+        let room = self.face.at_least(self.path.x) - self.r;
+        room > 0.0 && self.path.stays_within(room, self.before)
+    }
+
     /// The earliest of all candidates that hold: faces first, since they bound the time for the quartics.
     fn everywhere(&self, height: [f64; 3]) -> Option<f64> {
         let now = touch(self.face, self.path.x, self.r);

@@ -15,6 +15,8 @@ pub struct Face {
     pub dual1: DVec3,
     /// d2 with d2·s2 = 1, d2·s1 = d2·n = 0, 1/m.
     pub dual2: DVec3,
+    /// Distances between opposite edges, 1/|d1| and 1/|d2|, m.
+    pub widths: [f64; 2],
     /// Whether no sphere can reach its edges, as long as none passes a wall.
     pub sealed: bool,
 }
@@ -24,13 +26,24 @@ impl Face {
     pub fn new(shape: Parallelogram) -> Face {
         let normal = shape.normal();
         let (row1, row2) = (shape.s2.cross(normal), normal.cross(shape.s1));
-        Face { shape, normal, dual1: row1 / row1.dot(shape.s1), dual2: row2 / row2.dot(shape.s2), sealed: false }
+        let (dual1, dual2) = (row1 / row1.dot(shape.s1), row2 / row2.dot(shape.s2));
+        Face { shape, normal, dual1, dual2, widths: [dual1, dual2].map(|d| 1.0 / d.length()), sealed: false }
     }
 
     /// Signed distance of `p` (m) from the wall's plane, m; positive on the side of `normal`.
     #[inline]
     pub fn height(&self, p: DVec3) -> f64 {
         (p - self.shape.center).dot(self.normal)
+    }
+
+    /// What the distance of `p` (m) from the wall is at least, m: that from the strips between its opposite edges.
+    #[inline]
+    pub fn at_least(&self, p: DVec3) -> f64 {
+        let q = p - self.shape.center;
+        let beyond = |dual: DVec3, width: f64| (q.dot(dual).abs() - 0.5) * width;
+        let (aside, height) =
+            (beyond(self.dual1, self.widths[0]).max(beyond(self.dual2, self.widths[1])), q.dot(self.normal));
+        if aside > 0.0 { (aside * aside + height * height).sqrt() } else { height.abs() }
     }
 
     /// Whether the foot of `p` (m) on the plane lies within the parallelogram, its boundary included.

@@ -4,15 +4,14 @@ use glam::DVec3;
 use ratatui::layout::{Position, Rect};
 
 use super::{
-    layout::{Plan, Side},
+    draw::extent,
+    layout::{Plan, sizes},
     projection::{ACROSS, Camera, DOWN},
     screen::{Popup, Screen, ViewSettings},
+    side::Side,
     timeline,
 };
-use crate::{
-    format,
-    snapshot::{Class, Contact, Kind},
-};
+use crate::snapshot::Contact;
 
 /// A view with a cell of it that is pointed at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,10 +35,11 @@ impl Aim {
     pub fn at(screen: &Screen, area: Rect, at: Position) -> Option<Aim> {
         let (Popup::None | Popup::Prompt { .. }) = screen.popup else { return None };
         let (snapshot, settings) = (screen.snapshot, screen.view_settings);
-        let Plan::Full(plan) = Plan::new(area, settings) else { return None };
+        let Plan::Full(plan) = Plan::new(area, settings, extent(&snapshot.stage)) else { return None };
+        let sizes = sizes(&plan.panes);
         let pane = plan.panes.into_iter().find(|pane| pane.canvas.contains(at))?;
         let followed = settings.selected.filter(|_| settings.follow).and_then(|i| snapshot.x.get(i).copied());
-        let camera = Camera::new(settings, &snapshot.stage, followed, pane.canvas);
+        let camera = Camera::new(settings, &snapshot.stage, followed, sizes);
         Some(Aim { side: pane.side, canvas: pane.canvas, camera })
     }
 
@@ -99,34 +99,13 @@ fn least(values: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
 
 /// The time, s, of a cell of the timeline; none if the cell is not on it.
 pub fn time_at(screen: &Screen, area: Rect, at: Position) -> Option<f64> {
-    let Plan::Full(plan) = Plan::new(area, screen.view_settings) else { return None };
+    let Plan::Full(plan) = Plan::new(area, screen.view_settings, DVec3::ZERO) else { return None };
     let row = plan.timeline.filter(|row| row.contains(at))?;
     timeline::time_at(screen, row, at.x)
 }
 
 /// The row of the timeline on a screen of that size and settings, if it has one.
 pub fn timeline_row(settings: &ViewSettings, area: Rect) -> Option<u16> {
-    let Plan::Full(plan) = Plan::new(area, settings) else { return None };
+    let Plan::Full(plan) = Plan::new(area, settings, DVec3::ZERO) else { return None };
     plan.timeline.map(|row| row.y)
-}
-
-/// A contact in one line: what touches what, when, how fast and with what impulse.
-pub fn contact_card(contact: &Contact) -> String {
-    let bodies = match contact.kind {
-        Kind::Wall => format!("Sphere {} and wall {}", contact.a, contact.b),
-        Kind::Pair => format!("Spheres {} and {}", contact.a, contact.b),
-    };
-    let class = match contact.class {
-        Class::Collide => "impact",
-        Class::Rest => "rest",
-        Class::Leave | Class::Release => "leaving",
-    };
-    format!(
-        "{bodies}: {class} at {} s, approach {} m/s, separation {} m/s, impulse {} N s, degree {}.",
-        format::time(contact.time),
-        format::rounded(contact.approach_speed),
-        format::rounded(contact.separation_speed),
-        format::rounded(contact.impulse),
-        format::rounded(contact.degree)
-    )
 }

@@ -9,9 +9,9 @@ use carom::{
     app::{Action, App, Code, Effect, Input, Key, Keymap, Setup, table},
     physics::{Progress, Settings, Simulation, Until},
     scene,
-    snapshot::{Snapshot, Stage},
+    snapshot::{Class, Snapshot, Stage},
     view::{Colors, Inks, Marker, Views},
-    worker::{Activity, Command, Job, Notify, Worker},
+    worker::{Activity, Bodies, Command, Job, Notify, Stop, Worker},
 };
 use ratatui::{buffer::Buffer, layout::Rect};
 
@@ -29,7 +29,7 @@ fn tell(sender: mpsc::Sender<()>) -> Notify {
 pub(crate) struct User {
     pub(crate) app: App,
     news: mpsc::Receiver<()>,
-    screen: Buffer,
+    pub(crate) screen: Buffer,
 }
 
 impl User {
@@ -80,12 +80,13 @@ impl User {
         effect
     }
 
-    /// Types, `\n` for Enter and `\x1b` for Esc.
+    /// Types, `\n` for Enter, `\x1b` for Esc and `\t` for Tab.
     pub(crate) fn type_in(&mut self, keys: &str) {
         for c in keys.chars() {
             let key = match c {
                 '\n' => Key::plain(Code::Enter),
                 '\x1b' => Key::plain(Code::Escape),
+                '\t' => Key::plain(Code::Tab),
                 c => Key::char(c),
             };
             let _ = self.press(key);
@@ -374,22 +375,6 @@ fn a_message_takes_the_rows_it_needs_and_what_is_hardly_meant_is_said_at_once() 
 }
 
 #[test]
-fn what_happens_unasked_hides_no_answer_and_the_next_key_ends_both() {
-    let mut user = User::with("paper-0");
-    user.type_in(":hash\n");
-    user.app.tell("The line was silent for 1.0 s; 3 frames were skipped.");
-    user.app.tell("The line was silent for 2.0 s; 9 frames were skipped.");
-    user.look();
-    let message = format!("{} {}", user.row(-2).trim(), user.row(-1).trim());
-    assert!(
-        message.contains("hash=") && message.contains("for 2.0 s; 9 frames") && !message.contains("1.0 s"),
-        "{message}"
-    );
-    user.type_in("\x1b");
-    assert!(!user.text().contains("hash=") && !user.text().contains("silent"), "{}", user.text());
-}
-
-#[test]
 fn sizes_down_to_nothing_are_drawn() {
     let mut user = User::with("paper-2");
     for popup in ["", "?", "\x1bo", "\x1b:"] {
@@ -420,6 +405,7 @@ fn bits(t: f64, x: &[glam::DVec3], v: &[glam::DVec3]) -> Vec<u64> {
 
 #[test]
 fn the_worker_changes_no_bit_of_a_run() {
+    let impact = Stop::Event(Class::Collide, Bodies::Any);
     for scene in ["paper-1", "paper-2", "paper-3"] {
         let (mut worker, news, job) = worker(scene);
         worker.send(Command::Speed(50.0));
@@ -432,7 +418,9 @@ fn the_worker_changes_no_bit_of_a_run() {
             }
         };
         wait(&worker, &|report| report.snapshot.t > 4.0);
-        for command in [Command::Run(false), Command::Step, Command::NextImpact, Command::Speed(0.5), Command::Step] {
+        for command in
+            [Command::Run(false), Command::Forward(1), Command::Until(impact), Command::Speed(0.5), Command::Forward(1)]
+        {
             worker.send(command);
         }
         let sent = worker.sent();
@@ -451,24 +439,13 @@ fn the_worker_changes_no_bit_of_a_run() {
 #[test]
 fn a_worker_that_waits_sends_no_news() {
     let (mut worker, news, _job) = worker("paper-0");
-    worker.send(Command::Step);
+    worker.send(Command::Forward(1));
     news.recv_timeout(PATIENCE).expect("the step");
     while worker.take().obeyed < 1 {
         news.recv_timeout(PATIENCE).expect("the step");
     }
     let silence = Duration::from_millis(300); // longer than eighteen reports of a running run
     assert_eq!(news.recv_timeout(silence), Err(mpsc::RecvTimeoutError::Timeout));
-}
-
-#[test]
-fn the_search_for_a_collision_ends_one_duration_later_where_none_comes() {
-    let mut user = User::with("paper-0");
-    user.type_in(":goto 15\n"); // its last impact is at 12 s, its duration 20 s
-    let (t, impacts) = (user.snapshot().t, user.snapshot().tallies.impacts);
-    user.type_in("c");
-    // the first frame that ends after that, of dt = 0.01 s
-    assert!((20.0..20.02).contains(&(user.snapshot().t - t)), "{t} s, {} s", user.snapshot().t);
-    assert_eq!(user.snapshot().tallies.impacts, impacts);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::app::User;
 fn rebound_keys_work_and_every_text_names_them_as_bound() {
     let mut keymap = Keymap::default();
     for (action, key) in [
-        (Action::Step, Key::char('w')),
+        (Action::Step, Key::char('y')),
         (Action::Help, Key::plain(Code::F(2))),
         (Action::Scenes, Key::char('O')),
         (Action::NextMethod, Key::char('M')),
@@ -18,13 +18,13 @@ fn rebound_keys_work_and_every_text_names_them_as_bound() {
         keymap.bind(action, &[key]);
     }
     let mut user = User::bound("paper-0", true, keymap);
-    assert!(user.row(-1).contains("w step") && user.row(-1).contains("F2 help"), "{}", user.row(-1));
+    assert!(user.row(-1).contains("y step") && user.row(-1).contains("F2 help"), "{}", user.row(-1));
     let _ = user.press(Key::char('.'));
     assert_eq!(user.snapshot().t, 0.0, "the key of the table does nothing any more");
-    let _ = user.press(Key::char('w'));
+    let _ = user.press(Key::char('y'));
     assert_eq!(user.snapshot().t, 0.01);
     let _ = user.press(Key::plain(Code::F(2)));
-    assert!(user.text().contains("w") && !user.text().contains(". n Right"), "{}", user.text());
+    assert!(user.text().contains("y") && !user.text().contains(". n Right"), "{}", user.text());
     let _ = user.press(Key::plain(Code::F(2)));
     let _ = user.press(Key::char('O'));
     assert!(user.text().contains("/ filters"), "{}", user.text());

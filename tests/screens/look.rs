@@ -1,6 +1,6 @@
 //! Any way to look at a scene.
 
-use carom::view::{Background, Colors, Ink, Inks, Marker, Overlays, ViewSettings, Views};
+use carom::view::{Background, CardView, Colors, Ink, Inks, Marker, Overlays, ViewSettings, Views};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -32,7 +32,8 @@ pub(crate) fn look() -> impl Strategy<Value = ViewSettings> {
             follow: flags[0],
             selected,
             overlays: Overlays { contacts: flags[1], normals: flags[2], velocities: flags[3], ids: flags[4] },
-            inspector: flags[5],
+            inspector: Some(flags[5]),
+            card: flags[4].then(|| CardView { cursor: 1, scroll: 3, probe: flags[1].then_some(2) }),
             ghost: flags[6],
             marker,
             colors,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::active_set::{self, DEPENDENT};
-use super::problem::{LocalRow, Problem};
+use super::problem::{Problem, Row};
 use super::{enumerate, gauss_seidel};
 
 /// SplitMix64 mapped to [−1, 1), the seed first.
@@ -28,7 +28,7 @@ fn island(seed: u64, bodies: usize, contacts: usize) -> Problem {
     let row = |(index, normal): (usize, DVec3)| {
         let a = index % bodies;
         let other = ((next() + 1.0) * 0.5 * bodies as f64) as usize;
-        LocalRow { a, b: (other < a).then_some(other), normal, offset: next().max(0.0) }
+        Row { a, b: (other < a).then_some(other), normal, offset: next().max(0.0) }
     };
     let rows = normals.into_iter().enumerate().map(row).collect();
     let weight: f64 = free.iter().zip(&inverse_mass).map(|(u, w)| u.length_squared() / w).sum();
@@ -85,7 +85,7 @@ fn a_good_guess_is_confirmed_at_once() {
 fn sweeping_says_that_a_heavy_sphere_on_a_light_column_has_defeated_it() {
     let mut inverse_mass = vec![1.0; 10];
     inverse_mass[9] = 1e-8;
-    let row = |a: usize| LocalRow { a, b: a.checked_sub(1), normal: DVec3::Y, offset: 0.0 };
+    let row = |a: usize| Row { a, b: a.checked_sub(1), normal: DVec3::Y, offset: 0.0 };
     let free = vec![DVec3::NEG_Y * 9.8; 10];
     let problem = Problem { inverse_mass, free, rows: (0..10).map(row).collect(), weight: 9.8e4 };
     let swept = gauss_seidel::solve(&problem, vec![0.0; 10], 2000);

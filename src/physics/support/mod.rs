@@ -5,8 +5,9 @@
 //! a = a_applied + M⁻¹ Jᵀ λ, 0 ≤ λ ⊥ J a + k ≥ 0, where k is what the curvature of the contact adds to the second
 //! derivative of its gap. No friction. v⁺ and a are unique; Λ and λ are not where contacts are redundant.
 //!
-//! One contact: closed form. One sphere on few walls: enumeration. Small islands, and those of unlike masses: active set.
-//! Large islands of like masses: projected Gauss–Seidel, and the active set if that has not converged.
+//! One contact: closed form. One sphere on few walls: enumeration. Islands whose loads are nearly known: pivoting, where that
+//! ends soon. Else small islands, and those of unlike masses: active set. Large islands of like masses: projected
+//! Gauss–Seidel, and the active set if that has not converged.
 //!
 //! Plain data in, plain data out; nothing here knows of scenes, walls or time.
 
@@ -19,7 +20,9 @@ mod enumerate;
 mod equality;
 mod factor;
 mod gauss_seidel;
+mod gram;
 mod island;
+mod pivoting;
 mod problem;
 mod resting;
 mod solution;

@@ -31,21 +31,13 @@ pub struct Row {
     pub offset: f64,
 }
 
-/// A row in local indices.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LocalRow {
-    pub(super) a: usize,
-    pub(super) b: Option<usize>,
-    pub(super) normal: DVec3,
-    pub(super) offset: f64,
-}
-
 /// One island's problem.
 #[derive(Debug, Clone)]
 pub(super) struct Problem {
     pub(super) inverse_mass: Vec<f64>,
     pub(super) free: Vec<DVec3>,
-    pub(super) rows: Vec<LocalRow>,
+    /// In local indices.
+    pub(super) rows: Vec<Row>,
     /// √(Σ m u₀²): every projection is smaller, so rounding of a body's u is this times ulp/√m.
     pub(super) weight: f64,
 }
@@ -56,7 +48,7 @@ impl Problem {
         let local = |body: usize| island.bodies.partition_point(|&other| other < body);
         let rows = island.contacts.iter().map(|&index| {
             let row = rows[index];
-            LocalRow { a: local(row.a), b: row.b.map(local), normal: row.normal, offset: row.offset }
+            Row { a: local(row.a), b: row.b.map(local), normal: row.normal, offset: row.offset }
         });
         let seen = |body: usize| {
             let faint = |part: f64| if part.abs() < FAINTEST { 0.0 } else { part };

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::problem::Row;
 use super::solution::Solution;
-use super::solve::solve;
+use super::solve::solve_from;
 
 /// The shape of what touches, as far as the gap's second derivative feels it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,17 +65,17 @@ pub struct Bodies<'a> {
 /// The velocity problem: v⁺ = v + M⁻¹ Jᵀ Λ, 0 ≤ Λ ⊥ J v⁺ ≥ 0. It never adds kinetic energy.
 pub fn velocities(bodies: Bodies, contacts: &[Resting]) -> Solution {
     let rows: Vec<Row> = contacts.iter().map(|contact| row(contact, 0.0)).collect();
-    solve(bodies.inverse_mass, bodies.velocity, &rows, &[])
+    solve_from(bodies.inverse_mass, bodies.velocity, &rows, &[])
 }
 
 /// The acceleration problem for contacts that neither open nor close: a = a_applied + M⁻¹ Jᵀ λ, 0 ≤ λ ⊥ J a + k ≥ 0,
-/// with k from `bodies.velocity`. `guess` as in [`solve`].
+/// with k from `bodies.velocity`. `guess` as in [`solve`](super::solve()).
 pub fn accelerations(bodies: Bodies, contacts: &[Resting], guess: &[f64]) -> Solution {
     let relative =
         |contact: &Resting| bodies.velocity[contact.a] - contact.b.map_or(DVec3::ZERO, |other| bodies.velocity[other]);
     let curved = |contact| row(contact, contact.surface.curvature_term(contact.normal, relative(contact)));
     let rows: Vec<Row> = contacts.iter().map(curved).collect();
-    solve(bodies.inverse_mass, bodies.applied, &rows, guess)
+    solve_from(bodies.inverse_mass, bodies.applied, &rows, guess)
 }
 
 /// Both problems, one after the other.

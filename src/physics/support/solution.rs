@@ -9,6 +9,8 @@ use super::problem::{ROUNDING, Row};
 pub enum Solver {
     /// One contact, in closed form; or one sphere on a few walls, every set of contacts tried.
     Enumeration,
+    /// Block principal pivoting on a skyline.
+    Pivoting,
     /// Active set on an orthogonal factor.
     ActiveSet,
     /// Projected Gauss–Seidel.

@@ -6,7 +6,7 @@ use super::gauss_seidel::{self, PRECISION};
 use super::island::islands;
 use super::problem::{Problem, ROUNDING, Row};
 use super::solution::{Report, Solution, Solver};
-use super::{active_set, enumerate};
+use super::{active_set, enumerate, pivoting};
 
 /// Rows up to which an island is solved directly at once: a millisecond. Beyond, sweeping is cheaper where it converges.
 const DIRECT_ROWS: usize = 160;
@@ -25,14 +25,34 @@ const MOST_SWEEPS: usize = 5000;
 /// `guess` holds a multiplier per row to start from, or is empty. Bounded work; the outcome is in the reports.
 /// Deterministic: the bits follow from the arguments alone.
 pub fn solve(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) -> Solution {
+    by_islands(inverse_mass, free, rows, |problem, at| {
+        Part::of(problem, at.iter().map(|&row| guess.get(row).map_or(0.0, |&g| g.max(0.0))).collect())
+    })
+}
+
+/// [`solve`] where the loads of a moment ago, `guess`, are nearly those of now: a step or two of pivoting confirm them. The
+/// same u, but for its last bits.
+pub(super) fn solve_from(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) -> Solution {
+    by_islands(inverse_mass, free, rows, |problem, at| {
+        let guess: Vec<f64> = at.iter().map(|&row| guess.get(row).map_or(0.0, |&g| g.max(0.0))).collect();
+        Part::pivoted(problem, &guess).unwrap_or_else(|| Part::of(problem, guess))
+    })
+}
+
+/// Solves every island by `part`, which gets its rows too.
+fn by_islands(
+    inverse_mass: &[f64],
+    free: &[DVec3],
+    rows: &[Row],
+    part: impl Fn(&Problem, &[usize]) -> Part,
+) -> Solution {
     let links: Vec<_> = rows.iter().map(|row| (row.a, row.b)).collect();
     let islands = islands(&links);
     let mut solution = Solution { multipliers: vec![0.0; rows.len()], ..Solution::default() };
     let mut bodies: Vec<(usize, DVec3, f64)> = Vec::new();
     for island in &islands {
         let problem = Problem::new(inverse_mass, free, rows, island);
-        let start = island.contacts.iter().map(|&row| guess.get(row).map_or(0.0, |&g| g.max(0.0))).collect();
-        let part = Part::of(&problem, start);
+        let part = part(&problem, &island.contacts);
         for (&row, &multiplier) in island.contacts.iter().zip(&part.multipliers) {
             solution.multipliers[row] = multiplier;
         }
@@ -86,6 +106,16 @@ impl Part {
     fn of_single(problem: &Problem) -> Part {
         let (multipliers, u, passes) = enumerate::solve(problem);
         Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new() }
+    }
+
+    /// By pivoting, where that ends soon and leaves no more than rounding.
+    fn pivoted(problem: &Problem, guess: &[f64]) -> Option<Part> {
+        if problem.rows.len() == 1 || problem.free.len() == 1 && problem.rows.len() <= enumerate::LIMIT {
+            return None; // closed forms
+        }
+        let (u, multipliers, passes) = pivoting::solve(problem, guess)?;
+        let part = Part { u, multipliers, solver: Solver::Pivoting, passes, slack: Vec::new() };
+        (part.worst(problem) <= 1.0).then_some(part)
     }
 
     /// The active set; where it does not come to an end, or leaves more than rounding, again with other ideas of what a

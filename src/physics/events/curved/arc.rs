@@ -14,7 +14,7 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed};
-use super::equation::{ConstrainedMotion, loaded};
+use super::equation::ConstrainedMotion;
 use super::hermite::{Hermite, cube_root, fall_below_zero};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
@@ -31,8 +31,8 @@ const FINEST: f64 = 16.0 * f64::EPSILON;
 const FIRST: f64 = 0.05;
 
 /// Length of the first arc after something has happened, in the same units: it may happen again at once, a million times
-/// a second, and so short an arc costs a quarter.
-const BRIEF: f64 = 1e-4;
+/// a second, and so short an arc costs a quarter. The classical method of order 4 is off by less than 1e-17 radii then.
+const BRIEF: f64 = 1e-3;
 
 /// Up to this share of an arc v of its polynomial is as good as integrated: its error grows as the square.
 const BEGINNING: f64 = 1e-3;
@@ -68,6 +68,8 @@ pub(crate) struct Arc {
     next: f64,
     /// Which contacts carry a load, and therefore hold.
     loaded: Vec<bool>,
+    /// Whether it is so short that a method of order 4 is exact.
+    brief: bool,
 }
 
 /// The bodies at one end of an arc, and their accelerations, m/s².
@@ -78,15 +80,15 @@ struct Ends {
 }
 
 impl Arc {
-    /// The motion of bodies from now on, while the contacts that carry a load now go on holding. The contacts are closed
+    /// The motion of bodies from now on, while the contacts that are `loaded` go on holding. The contacts are closed
     /// (v_n = 0).
-    pub(crate) fn new(bodies: Vec<Body>, contacts: &[Closed]) -> Arc {
-        Arc::of(bodies, contacts, None)
+    pub(crate) fn new(bodies: Vec<Body>, contacts: &[Closed], loaded: Vec<bool>) -> Arc {
+        Arc::of(bodies, contacts, loaded, None)
     }
 
     /// The arc that goes on from the end of this one.
     pub(crate) fn go_on(&self, contacts: &[Closed]) -> Arc {
-        Arc::of(self.real(self.length, contacts), contacts, Some(self.next))
+        Arc::of(self.real(self.length, contacts), contacts, self.loaded.clone(), Some(self.next))
     }
 
     /// The bodies `time` (s) after the arc's beginning, integrated up to there: the polynomial is as good in x, but its v
@@ -99,6 +101,9 @@ impl Arc {
             return self.end.bodies.clone();
         }
         let motion = ConstrainedMotion::held_by(&self.start.bodies, contacts, &self.loaded);
+        if self.brief {
+            return motion.step_rk4(&self.start.bodies, time);
+        }
         if time > BEGINNING * self.span {
             return motion.step_rkf8(&self.start.bodies, time);
         }
@@ -107,8 +112,7 @@ impl Arc {
         bodies
     }
 
-    fn of(mut bodies: Vec<Body>, contacts: &[Closed], span: Option<f64>) -> Arc {
-        let loaded = loaded(&bodies, contacts);
+    fn of(mut bodies: Vec<Body>, contacts: &[Closed], loaded: Vec<bool>, span: Option<f64>) -> Arc {
         let motion = ConstrainedMotion::held_by(&bodies, contacts, &loaded);
         motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
@@ -120,9 +124,8 @@ impl Arc {
             let bodies = motion.step_rkf8(&start.bodies, span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let (start, loaded) = (start.clone(), loaded.clone());
-            let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
-            let middle = motion.step_rkf8(&arc.start.bodies, 0.5 * span);
-            let growth = cube_root(arc.allowance(&middle).sqrt());
+            let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded, brief: false };
+            let growth = cube_root(arc.allowance(&motion).sqrt());
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= 1.0 || span <= SHORT * scale {
                 arc.cut_short(&motion, &LOOKS);
@@ -131,23 +134,29 @@ impl Arc {
             span *= (0.8 * growth).max(0.05);
         }
         // Out of reach of numbers: no motion at all, which the watchdog of the method will notice.
-        Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded }
+        Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded, brief: true }
     }
 
     /// An arc so short that neither its integration nor its polynomial needs looking at.
     fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
         let bodies = motion.step_rk4(&start.bodies, span);
         let end = Ends { a: motion.accelerations(&bodies).0, bodies };
-        let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded };
+        let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded, brief: true };
         arc.cut_short(motion, &LOOKS[3..]);
         arc
     }
 
-    /// How many times the error in the middle, where the bodies really are at `middle`, fits into what is allowed.
-    fn allowance(&self, middle: &[Body]) -> f64 {
+    /// How many times the error in the middle fits into what is allowed. The error of the polynomial is x⁽⁶⁾/720 s³ (h − s)³, so
+    /// that in the middle it is h²/24 times that of the acceleration, which the equation itself tells.
+    fn allowance(&self, motion: &ConstrainedMotion) -> f64 {
         let read = self.at(0.5 * self.span);
-        let share = |(read, real): (&Body, &Body)| TOLERANCE * real.size() / read.x.distance(real.x);
-        read.iter().zip(middle).map(share).fold(1e6, |least, share| if share >= least { least } else { share })
+        let real = motion.accelerations(&read).0;
+        let share = |(i, (read, real)): (usize, (&Body, &DVec3))| {
+            let off = self.polynomial(i).chord_acceleration(0.5 * self.span, 0.0).distance(*real);
+            TOLERANCE * read.size() / (off * (self.span * self.span / 24.0))
+        };
+        let shares = read.iter().zip(&real).enumerate().map(share);
+        shares.fold(1e6, |least, share| if share >= least { least } else { share })
     }
 
     /// The bodies `time` (s) after the arc's beginning.
@@ -237,7 +246,8 @@ impl Body {
 mod tests {
     use super::*;
     use crate::geometry::Parallelogram;
-    use crate::physics::events::curved::bodies::On;
+    use crate::physics::events::curved::bodies::{On, geometry};
+    use crate::physics::support::{Bodies, Resting, accelerations};
     use crate::physics::wall::{Face, Part};
     use crate::physics::wall_parts::room;
 
@@ -251,6 +261,20 @@ mod tests {
         Body { x, v, applied: DVec3::NEG_Y * G, inverse_mass: 0.5, r: 0.5 }
     }
 
+    /// Which contacts carry a load now.
+    fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
+        let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+        let (velocity, applied): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.v, body.applied)).unzip();
+        let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
+        let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+        accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
+    }
+
+    fn arc(bodies: Vec<Body>, contacts: &[Closed]) -> Arc {
+        let loaded = loaded(&bodies, contacts);
+        Arc::new(bodies, contacts, loaded)
+    }
+
     /// Half the energy per mass, relative to that of the level of the contact.
     fn energy(body: &Body, level: f64) -> f64 {
         0.5 * body.v.length_squared() + G * (body.x.y - level)
@@ -258,7 +282,7 @@ mod tests {
 
     /// Goes on until a contact changes; how long that took, s, and in how many steps.
     fn until_change(bodies: &mut [Body], contacts: &[Closed]) -> (f64, u32) {
-        let mut arc = Arc::new(bodies.to_vec(), contacts);
+        let mut arc = arc(bodies.to_vec(), contacts);
         let mut time = 0.0;
         for count in 1..1_000_000 {
             time += arc.length;
@@ -348,7 +372,7 @@ mod tests {
         let contacts = [Closed { a: 0, on: On::Wall(&face, Part::Corner(2)) }];
         let corner = face.shape.corners()[2];
         let start = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
-        let mut arc = Arc::new(start.clone(), &contacts);
+        let mut arc = arc(start.clone(), &contacts);
         let motion = ConstrainedMotion::held_by(&start, &contacts, &loaded(&start, &contacts));
         for _ in 0..5 {
             let mut from = 0.0;
@@ -375,7 +399,7 @@ mod tests {
         let face = floor();
         let contacts = [Closed { a: 0, on: On::Wall(&face, Part::Corner(2)) }];
         let start = vec![sphere(face.shape.corners()[2] + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
-        let brief = Arc::new(start.clone(), &contacts);
+        let brief = arc(start.clone(), &contacts);
         let long = brief.go_on(&contacts);
         for arc in [brief, long] {
             let motion = ConstrainedMotion::held_by(&arc.start.bodies, &contacts, &arc.loaded);

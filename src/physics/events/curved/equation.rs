@@ -3,15 +3,20 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed, On, geometry};
-use crate::physics::support::{Bodies, Resting, Row, accelerations, bind, restore};
+use crate::physics::support::{Row, bind, restore};
 use crate::physics::wall_parts::{BORDER, room};
 
 /// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
 /// rounding, and less than moves anything by 1e-14 m during an arc.
 const IDLE: f64 = 1e-11;
 
-/// How fast it may open before its island is settled anew; at every 1e-11 the arcs would shrink to picoseconds.
-const MAX_IDLE_OPENING: f64 = 1e-6;
+/// How fast it may open, in the same units, before it must let go: a contact that opens by no more than the acceleration of a
+/// chord is off would be met again at once.
+pub(crate) const BARELY: f64 = 1e-3;
+
+/// How far it may open, in radii, before it must let go: so far that the chords, which depart from the path by a hundredth of
+/// that, do not meet it again, and so little that it may carry again as it is.
+pub(crate) const OPENED: f64 = 1e-11;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
@@ -143,22 +148,12 @@ impl<'a> ConstrainedMotion<'a> {
         let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
         let idle = openings.map(|(opening, before)| {
             let closing = IDLE + opening - before.min(0.0);
-            closing.min(MAX_IDLE_OPENING + before.max(0.0) - opening)
+            closing.min(BARELY + before.max(0.0) - opening)
         });
-        let sunk = |(gap, before): (f64, &f64)| gap - before.min(0.0) + SUNK;
+        let sunk = |(gap, before): (f64, &f64)| (gap - before.min(0.0) + SUNK).min(OPENED + before.max(0.0) - gap);
         let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).map(sunk);
         loads.chain(rooms).chain(idle).chain(gaps).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// Which contacts carry a load now.
-pub(crate) fn loaded(bodies: &[Body], contacts: &[Closed]) -> Vec<bool> {
-    let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
-    let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-    let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
-    let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
-    accelerations(all, &resting, &[]).multipliers.iter().map(|&force| force > 0.0).collect()
 }
 
 /// Rooms, openings and gaps of idle contacts at the beginning of an arc.

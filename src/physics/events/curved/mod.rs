@@ -6,5 +6,5 @@
 
 pub(super) mod arc;
 pub(super) mod bodies;
-mod equation;
+pub(super) mod equation;
 mod hermite;

@@ -8,12 +8,9 @@
 use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
+use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
 use crate::physics::events::rounding::{HOP, SUM};
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
-
-/// A contact of a curved island that opens by no more than this share of the accelerations is looked at again after
-/// every step.
-const BARELY: f64 = 1e-3;
 
 /// Cosine of the angle between the normals of contacts that oppose each other: within a millirad of straight.
 const OPPOSED: f64 = -1.0 + 1e-6;
@@ -46,8 +43,9 @@ pub(crate) struct Settled {
 ///
 /// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
 /// clock or the coordinates can tell is closed.
-pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) -> Settled {
-    let resting: Vec<Resting> = contacts.iter().map(|&contact| geometry(bodies, contact).0).collect();
+/// `loads` (N, by contact) are what they carried last.
+pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f64], tick: f64) -> Settled {
+    let (resting, gaps): (Vec<Resting>, Vec<f64>) = contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
@@ -64,7 +62,8 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) 
     let closed: Vec<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
     let touching: Vec<Resting> = closed.iter().map(|&index| resting[index]).collect();
     let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &[]);
+    let guess: Vec<f64> = closed.iter().map(|&index| loads[index]).collect();
+    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
     let impulses = if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() };
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];
@@ -89,7 +88,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], tick: f64) 
     let turns = |contact: &Resting| settled.turns(contact, bodies);
     settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && turns(&resting[index]));
     for &index in &closed {
-        settled.fate[index] = settled.fate_of(index, &resting[index], bodies);
+        settled.fate[index] = settled.fate_of(index, (&resting[index], gaps[index]), bodies);
     }
     settled.clear_normal_velocity(bodies, &inverse_mass, &resting, &slack);
     settled.stop(bodies, tick);
@@ -122,8 +121,8 @@ fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
 }
 
 impl Settled {
-    /// What becomes of a contact that is closed.
-    fn fate_of(&self, index: usize, contact: &Resting, bodies: &[Body]) -> Fate {
+    /// What becomes of a contact that is closed, but for its gap (m).
+    fn fate_of(&self, index: usize, (contact, gap): (&Resting, f64), bodies: &[Body]) -> Fate {
         if self.forces[index] > 0.0 {
             return Fate::Loaded;
         }
@@ -131,12 +130,13 @@ impl Settled {
         let a = relative(contact, &|body| self.a[body]);
         let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
         let noise = self.noise(contact, bodies);
-        if self.curved && opening <= BARELY / SUM * noise {
-            // the chord that stands for a curved motion could press it: it stays until the next step looks again
+        let parts = contact.normal.dot(v) > 0.0 && gap > OPENED * bodies[contact.a].r;
+        if self.curved && opening <= BARELY * pull(bodies) && !parts {
+            // the chord that stands for a curved motion could press it: it stays until the arc shows that it opens
             return Fate::Idle;
         }
         // unpressed and turning, it lets go: the next approach is a contact like any other
-        if opening > noise || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
+        if opening > noise || parts || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
     }
 
     /// Size of the rounding of relative accelerations, m/s².

@@ -18,6 +18,15 @@ use crate::physics::wall_parts::part_ahead;
 /// No island.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// Memory that a resting contact takes here, bytes: itself, its places in lists and trees, and its share of an arc.
+const BYTES_A_CONTACT: usize = 512;
+
+/// Memory that a sphere takes here once anything rests, bytes: its list of contacts, and its places in an island.
+const BYTES_A_SPHERE: usize = 96;
+
+/// Memory that a chord of the past takes, bytes: its arc is shared.
+const BYTES_A_PAST: usize = 256;
+
 /// A contact that rests, or is about to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RestingContact {
@@ -118,9 +127,15 @@ pub(super) fn closed<'a>(model: &'a Model, contacts: &[IslandContact]) -> Vec<Cl
 }
 
 impl Curve {
-    /// The motion of bodies from now on.
-    pub(super) fn new(model: &Model, bodies: Vec<Body>, contacts: Vec<IslandContact>, now: f64) -> Curve {
-        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts)));
+    /// The motion of bodies from now on, whose contacts carry these forces (N).
+    pub(super) fn new(
+        model: &Model,
+        bodies: Vec<Body>,
+        (contacts, forces): (Vec<IslandContact>, &[f64]),
+        now: f64,
+    ) -> Curve {
+        let loaded = forces.iter().map(|&force| force > 0.0).collect();
+        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts), loaded));
         Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
@@ -411,6 +426,26 @@ impl Rests {
         if curve.from < now {
             self.past.push(Past { spheres: spheres.to_vec(), curve: curve.clone(), until: now });
         }
+    }
+
+    /// A copy of which states from `time` (s) on can be read, and none before.
+    pub(crate) fn since(&self, time: f64) -> Rests {
+        let past: Vec<Past> = self.past.iter().filter(|past| past.until > time).cloned().collect();
+        Rests {
+            held: self.held.clone(),
+            of: self.of.clone(),
+            islands: self.islands.clone(),
+            vacant: self.vacant.clone(),
+            island_of: self.island_of.clone(),
+            dirty: self.dirty.clone(),
+            past,
+            ..*self
+        }
+    }
+
+    /// Memory that they take beside their own size, bytes, as near as the contacts and spheres tell.
+    pub(crate) fn bytes(&self) -> usize {
+        self.held.len() * BYTES_A_CONTACT + self.of.len() * BYTES_A_SPHERE + self.past.len() * BYTES_A_PAST
     }
 
     /// From here on, frames before are forgotten.

@@ -13,7 +13,7 @@ use crate::physics::events::rest_reason::RestReason;
 use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-use crate::physics::state::Stall;
+use crate::physics::state::{Stall, StallKind};
 use crate::physics::support::{Fate, islands};
 use crate::physics::wall::{Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::{part_ahead, part_end};
@@ -112,13 +112,14 @@ impl Mechanics {
         for &i in &spheres {
             self.advance(model, i);
         }
-        self.rests.dirty.clear();
         for &i in &spheres {
             self.rests.remove_island(i, self.trajectories.now);
         }
         for &i in &spheres {
             self.add_walls_at_point(model, i);
         }
+        // what has just been added is solved here too
+        self.rests.dirty.clear();
         let keys: BTreeSet<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
         let mut open: Vec<Vec<Key>> = vec![keys.into_iter().collect()];
         while let Some(keys) = open.pop() {
@@ -182,7 +183,9 @@ impl Mechanics {
     fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
         self.rub_off(model, keys);
         let (spheres, mut bodies, contacts) = self.island_of(model, keys);
-        let settled = solve_island(&mut bodies, &closed(model, &contacts), CLOCK_ULPS * self.trajectories.clock_ulp());
+        let loads: Vec<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
+        let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), &loads, tick);
         if !settled.converged {
             return Err(self.not_held(keys));
         }
@@ -211,7 +214,7 @@ impl Mechanics {
         if settled.curved {
             self.set_chord(
                 &spheres,
-                Curve::new(model, bodies, contacts, self.trajectories.now)
+                Curve::new(model, bodies, (contacts, &settled.forces), self.trajectories.now)
                     .cut(pause.min(self.rubbing_time(keys) - self.trajectories.now)),
             );
         } else {
@@ -319,7 +322,7 @@ impl Mechanics {
             keys[0].1,
             self.trajectories.now
         );
-        Stall { time: self.trajectories.now, kind: "resting-contact", reason }
+        Stall { time: self.trajectories.now, kind: StallKind::RestingContact, reason }
     }
 }
 

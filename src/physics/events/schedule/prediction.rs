@@ -42,8 +42,7 @@ impl<D: Detector> Schedule<D> {
             Some(cells) => search.in_cells(cells, trajectories.records[slot].cell, None, (candidates, &mut plan)),
             None => {
                 let others = (0..model.len()).filter(|&other| other != slot);
-                search.walls(0..model.faces.len(), &mut plan)
-                    + others.map(|other| search.pair(other, &mut plan)).sum::<u64>()
+                search.all_walls(&mut plan) + others.map(|other| search.pair(other, &mut plan)).sum::<u64>()
             }
         };
         self.evaluations += count;
@@ -121,7 +120,7 @@ impl<'a, D: Detector> Search<'a, D> {
         // what it is to meet soon of what is cheap to look at spares the rest a long search
         let mut count = if D::PAIRS_FIRST { self.pairs(candidates, plan) } else { 0 };
         if cell.is_loose() {
-            count += self.walls(0..self.model.faces.len(), plan);
+            count += self.all_walls(plan);
         } else {
             let (crossing, way) = cells.crossing(cell.coordinates, &self.path);
             (plan.crossing, plan.exit) = (self.trajectories.now + crossing, way);

@@ -29,7 +29,18 @@ pub(super) struct Search<'a, D> {
 }
 
 impl<D: Detector> Search<'_, D> {
-    /// Looks at some walls, in ascending order; returns how many.
+    /// Looks at all walls, first at the one that the sphere was to meet last: where it bounces on that, millions of times a
+    /// second, the others need no long look. Returns how many.
+    pub(super) fn all_walls(&self, plan: &mut Plan) -> u64 {
+        let (before, count) = (&self.trajectories.records[self.slot].plan, self.model.faces.len());
+        let first = before.other as usize;
+        if !D::PAIRS_FIRST || before.kind != Kind::Wall || first >= count {
+            return self.walls(0..count, plan);
+        }
+        self.walls(std::iter::once(first), plan) + self.walls((0..count).filter(|&wall| wall != first), plan)
+    }
+
+    /// Looks at some walls; returns how many.
     #[inline]
     pub(super) fn walls(&self, walls: impl Iterator<Item = usize>, plan: &mut Plan) -> u64 {
         let (i, r) = (self.trajectories.sphere(self.slot), self.trajectories.records[self.slot].trajectory.r);
@@ -39,12 +50,12 @@ impl<D: Detector> Search<'_, D> {
                 continue;
             }
             count += 1;
-            let span = self.span_for_walls(plan);
+            let span = self.span_for_wall(wall, plan);
             let Some(due) = self.detector.wall(&self.path, r, &self.model.faces[wall], span) else {
                 continue;
             };
             let time = self.trajectories.now + due.after;
-            if time < plan.contact || (time == plan.contact && plan.kind == Kind::Pair) {
+            if time < plan.contact || (time == plan.contact && wins_over(wall, plan)) {
                 (plan.contact, plan.kind, plan.other, plan.is_contact) =
                     (time, Kind::Wall, wall as u32, due.is_contact);
             }
@@ -55,14 +66,13 @@ impl<D: Detector> Search<'_, D> {
     /// Until when a wall is worth a look, s from now: walls come before pairs of the same time, and times that round to
     /// the same are the same.
     #[inline]
-    fn span_for_walls(&self, plan: &Plan) -> Span {
+    fn span_for_wall(&self, wall: usize, plan: &Plan) -> Span {
         let now = self.trajectories.now;
-        match plan.kind {
-            Kind::Pair if D::PAIRS_FIRST => {
-                Span { now, before: (plan.contact.min(self.until).next_up() - now).next_up() }
-            }
-            _ => self.span_before(plan.contact),
+        let late = if plan.kind == Kind::Pair { D::PAIRS_FIRST } else { wins_over(wall, plan) };
+        if late && plan.contact < f64::INFINITY {
+            return Span { now, before: (plan.contact.min(self.until).next_up() - now).next_up() };
         }
+        self.span_before(plan.contact)
     }
 
     #[inline]
@@ -127,6 +137,9 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
         let (records, now) = (&self.trajectories.records, self.trajectories.now);
+        if !self.rests.is_empty() && self.rest_on_each_other(other) {
+            return 0;
+        }
         let line = &records[other].trajectory;
         let reach = records[self.slot].trajectory.r + line.r;
         let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
@@ -145,16 +158,19 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     fn offer(&self, other: usize, time: f64, is_contact: bool, plan: &mut Plan) -> u64 {
         if time < plan.contact || time == plan.contact && self.wins_tie(other, plan) {
-            if !self.rests.is_empty() {
-                let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
-                if self.rests.holds((Kind::Pair, i.min(j), i.max(j))) {
-                    return 0;
-                }
+            if !self.rests.is_empty() && self.rest_on_each_other(other) {
+                return 0;
             }
             (plan.contact, plan.kind, plan.is_contact) = (time, Kind::Pair, is_contact);
             (plan.other, plan.motion_version) = (other as u32, self.trajectories.records[other].motion_version);
         }
         1
+    }
+
+    /// Whether the sphere and the one at `other` rest on each other.
+    fn rest_on_each_other(&self, other: usize) -> bool {
+        let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
+        self.rests.holds((Kind::Pair, i.min(j), i.max(j)))
     }
 
     /// Among pairs at one time the lower (a, b) comes first; walls come before pairs.
@@ -164,4 +180,10 @@ impl<D: Detector> Search<'_, D> {
         let key = |plan: &Plan| self.trajectories.key(self.slot, plan);
         plan.kind == Kind::Pair && plan.contact.is_finite() && key(&new) < key(plan)
     }
+}
+
+/// Whether a wall comes before what is planned for the same time: walls before pairs, the lower index before the higher.
+#[inline]
+fn wins_over(wall: usize, plan: &Plan) -> bool {
+    plan.kind == Kind::Pair || wall < plan.other as usize
 }
