@@ -30,6 +30,8 @@ mod card_keys;
 mod comparison;
 #[path = "screens/depth.rs"]
 mod depth;
+#[path = "screens/emulators.rs"]
+mod emulators;
 #[path = "screens/frames.rs"]
 mod frames;
 #[path = "screens/history.rs"]

@@ -36,9 +36,6 @@ const WIDEST: u32 = 4;
 const WIDEST_THIN: u32 = 2;
 const THIN: Duration = Duration::from_millis(5);
 
-/// A picture that keeps the line busy for longer than this makes the answer to a key wait long.
-const LONG: Duration = Duration::from_millis(250);
-
 /// So many pictures in a row tell how long a byte takes; the quickest counts: a busy machine is no thin line, and what
 /// had to wait for other pictures tells nothing.
 const SAMPLES: usize = 8;
@@ -236,15 +233,11 @@ impl Line {
     }
 
     /// Shortest time between two pictures. A line that a picture keeps busy is left alone for as long again, so that the
-    /// answer to a key, which may come at any moment, finds it free as often as not; and for twice as long where it would
-    /// wait long.
+    /// answer to a key, which may come at any moment, finds it free as often as not.
     pub(super) fn interval(&self) -> Duration {
         match self.answers {
             Answers::Fail => BLIND,
-            _ => {
-                let busy = self.busy(self.last).unwrap_or_default();
-                busy * if busy > LONG { 3 } else { 2 }
-            }
+            _ => self.busy(self.last).unwrap_or_default() * 2,
         }
     }
 
