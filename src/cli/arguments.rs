@@ -143,6 +143,9 @@ pub(super) struct Render {
     /// Time of the frame, s
     #[arg(long, value_name = "T", default_value = "0", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     pub(super) at: f64,
+    /// The frame of the N-th collision, taken apart
+    #[arg(long, value_name = "N", conflicts_with = "at", value_parser = numbers::count)]
+    pub(super) collision: Option<usize>,
     /// Columns and rows
     #[arg(long, value_name = "WxH", default_value = "80x24", value_parser = numbers::size)]
     pub(super) size: (u16, u16),

@@ -121,6 +121,8 @@ fn panes(views: Rect, area: Rect, settings: &ViewSettings, (inspected, extent): 
         _ if views.is_empty() => Vec::new(),
         Views::Side => vec![pane(Side::Side, views)],
         Views::Top => vec![pane(Side::Top, views)],
+        // A card explains the contact in the view that shows slopes.
+        Views::Both if replaced && settings.card.is_some() => vec![pane(Side::Side, views)],
         Views::Both if replaced => vec![pane(Side::Top, views)],
         Views::Both if narrow => vec![pane(Side::Side, views)],
         Views::Both => {
