@@ -4,7 +4,9 @@
 //! Data flows one way: scene file → validated [`scene::Scene`] → [`physics`] model → method → [`snapshot`] →
 //! [`view`] → terminal. Imports run the other way; `tests/tidy.rs` enforces it. SI units throughout; `f64`; y is up.
 //!
-//! As a library there are three doors: [`scene`] makes scenes, [`physics`] runs them, [`measure`] says how far off they are.
+//! As a library there are three doors: [`scene`] makes scenes, [`physics`] runs them, [`measure`] says how far off they are;
+//! beside them [`audit`] judges a run, [`snapshot`] copies one, [`export`] writes rows. Every other module is the program's
+//! own: public for its tests, not shown here, and free to change.
 //! The physics builds without the terminal and the command line: `default-features = false`. A whole program:
 //!
 //! ```
@@ -25,26 +27,46 @@
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "tui")]
+#[doc(hidden)]
 pub mod app;
 pub mod audit;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod config;
+#[doc(hidden)]
+pub mod explain;
 pub mod export;
+#[doc(hidden)]
 pub mod format;
 #[cfg(feature = "tui")]
+#[doc(hidden)]
 pub mod frame;
+#[doc(hidden)]
 pub mod geometry;
 pub mod measure;
 pub mod physics;
+#[doc(hidden)]
 pub mod printable;
+#[doc(hidden)]
 pub mod random;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod recording;
+#[doc(hidden)]
 pub mod roots;
 pub mod scene;
 pub mod snapshot;
 #[cfg(feature = "tui")]
+#[doc(hidden)]
 pub mod terminal;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod text_mode;
 #[cfg(feature = "tui")]
+#[doc(hidden)]
 pub mod view;
+#[doc(hidden)]
 pub mod worker;

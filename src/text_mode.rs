@@ -14,8 +14,8 @@ pub enum Ending {
     Done,
     /// It could not go on.
     Stalled(Stall),
-    /// `keep_on` returned false.
-    Stopped,
+    /// `keep_on` returned false, at the end of a frame at this time, s.
+    Stopped(f64),
 }
 
 /// Tells a run of `scene` from its start to its duration, flushing `out` with what has happened so far.
@@ -45,7 +45,7 @@ pub fn tell(scene: &Scene, settings: Settings, out: &mut impl Write, keep_on: im
         return Err(error);
     }
     match progress {
-        Progress::Yielded => Ok(Ending::Stopped),
+        Progress::Yielded => Ok(Ending::Stopped(simulation.time())),
         Progress::Stalled(stall) => {
             teller.tell(&mut simulation, true)?;
             give_up(stall, teller.impacts, teller.out)

@@ -2,14 +2,20 @@
 
 #[path = "cli/bounds.rs"]
 mod bounds;
+#[path = "cli/config.rs"]
+mod config;
 #[path = "cli/files.rs"]
 mod files;
 #[path = "cli/outputs.rs"]
 mod outputs;
 #[path = "cli/program.rs"]
 mod program;
+#[path = "cli/record.rs"]
+mod record;
 #[path = "cli/runs.rs"]
 mod runs;
+#[path = "cli/talk.rs"]
+mod talk;
 #[path = "cli/text.rs"]
 mod text;
 #[path = "cli/verify.rs"]

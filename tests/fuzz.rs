@@ -142,7 +142,7 @@ fn merge_file(file: &[u8]) -> bool {
     let rows = match read_trade(file) {
         Ok(rows) => rows,
         Err(said) => {
-            assert!(!said.contains(char::is_control), "{said:?}");
+            assert!(!said.to_string().contains(char::is_control), "{said:?}");
             return false;
         }
     };

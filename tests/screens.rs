@@ -22,13 +22,34 @@ mod alarm;
 mod app;
 #[path = "screens/bounds.rs"]
 mod bounds;
+#[path = "screens/card.rs"]
+mod card;
+#[path = "screens/card_keys.rs"]
+mod card_keys;
 #[path = "screens/comparison.rs"]
 mod comparison;
+#[path = "screens/depth.rs"]
+mod depth;
+#[path = "screens/emulators.rs"]
+mod emulators;
 #[path = "screens/frames.rs"]
 mod frames;
+#[path = "screens/history.rs"]
+mod history;
+#[path = "screens/keymap.rs"]
+mod keymap;
+#[path = "screens/look.rs"]
+mod look;
+#[path = "screens/many.rs"]
+mod many;
+#[path = "screens/mouse.rs"]
+mod mouse;
+#[path = "screens/projections.rs"]
+mod projections;
 #[path = "support/stages.rs"]
 mod stages;
 
+use look::look;
 use stages::Scene;
 
 const KEYS: &[(&str, &str)] = &[
@@ -60,6 +81,10 @@ fn help(scroll: usize) -> Popup<'static> {
 
 fn list(filter: &'static str, filtering: bool, cursor: usize) -> Popup<'static> {
     Popup::Scenes { filter, filtering, entries: SCENES, cursor }
+}
+
+fn prompt(text: &str) -> Popup<'_> {
+    Popup::Prompt { text, cursor: text.len(), offers: "" }
 }
 
 fn draw(screen: &Screen, width: u16, height: u16) -> Buffer {
@@ -125,14 +150,14 @@ fn the_scene_list_looks_as_stored() {
 #[test]
 fn the_prompt_and_news_look_as_stored() {
     let scene = stages::drop();
-    store("prompt", &Screen { popup: Popup::Prompt { text: "tolerance 1e-9" }, ..scene.screen() });
+    store("prompt", &Screen { popup: prompt("tolerance 1e-9"), ..scene.screen() });
     store("message", &Screen { message: Some("tolerance 1e-9 from here"), ..scene.screen() });
 }
 
 #[test]
 fn the_inspector_in_place_of_the_side_view_looks_as_stored() {
     let mut scene = stages::wedge();
-    scene.view_settings.inspector = true;
+    scene.view_settings.inspector = Some(true);
     store("inspector", &scene.screen());
 }
 
@@ -192,20 +217,14 @@ fn everything(mut check: impl FnMut(&Screen)) {
             [stages::drop(), stages::wedge(), stages::pile(), stages::stalled(), stages::gas(9), hostile.clone()];
         for mut scene in scenes {
             scene.view_settings.marker = marker;
-            for popup in [
-                Popup::None,
-                help(0),
-                help(99),
-                list("é", true, 3),
-                list("", false, 0),
-                Popup::Prompt { text: "dt 1e-3é" },
-            ] {
+            for popup in [Popup::None, help(0), help(99), list("é", true, 3), list("", false, 0), prompt("dt 1e-3é")]
+            {
                 check(&Screen { popup, ..scene.screen() });
             }
             check(&Screen { message: Some("Wrote état.svg → here"), ..scene.screen() });
         }
     }
-    hostile.view_settings.inspector = true;
+    hostile.view_settings.inspector = Some(true);
     check(&hostile.screen());
 }
 
@@ -252,7 +271,7 @@ fn hostile(seed: usize) -> Scene {
 #[test]
 fn every_size_up_to_forty_by_twenty_is_drawn_within_it() {
     for scene in [stages::stalled(), hostile(3)] {
-        for popup in [Popup::None, help(2), list("é", true, 3), Popup::Prompt { text: "dt 1e-3é" }] {
+        for popup in [Popup::None, help(2), list("é", true, 3), prompt("dt 1e-3é")] {
             let screen = Screen { popup, ..scene.screen() };
             for (width, height) in (0..=40).flat_map(|width| (0..=20).map(move |height| (width, height))) {
                 assert_stays_within(&screen, width, height);
@@ -288,29 +307,6 @@ fn assert_stays_within(screen: &Screen, width: u16, height: u16) {
     view::draw(screen, Rect::new(1, 1, width + 9, height + 9), &mut buffer);
     let cursor = view::cursor(screen, area);
     assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} of {width}x{height}");
-}
-
-fn look() -> impl Strategy<Value = ViewSettings> {
-    let number =
-        prop_oneof![4 => -1e2..1e2, 1 => -1e12..1e12, 1 => Just(f64::NAN), 1 => Just(f64::INFINITY), 1 => Just(-1e300)];
-    let zoom = prop_oneof![4 => (-6.0..6.0).prop_map(|power: f64| 10_f64.powf(power)), 1 => number.clone()];
-    let views = prop_oneof![Just(Views::Both), Just(Views::Side), Just(Views::Top)];
-    let marker = prop_oneof![Just(Marker::Braille), Just(Marker::Block), Just(Marker::Ascii)];
-    let colors = prop_oneof![Just(Colors::Never), Just(Colors::Ansi16), Just(Colors::Ansi256), Just(Colors::Rgb)];
-    let flags = proptest::collection::vec(any::<bool>(), 7);
-    (views, zoom, [number.clone(), number.clone(), number], flags, proptest::option::of(0_usize..5), marker, colors)
-        .prop_map(|(views, zoom, pan, flags, selected, marker, colors)| ViewSettings {
-            views,
-            zoom,
-            pan: DVec3::from_array(pan),
-            follow: flags[0],
-            selected,
-            overlays: Overlays { contacts: flags[1], normals: flags[2], velocities: flags[3], ids: flags[4] },
-            inspector: flags[5],
-            ghost: flags[6],
-            marker,
-            colors,
-        })
 }
 
 proptest! {
@@ -378,56 +374,6 @@ fn what_a_sphere_does_shows_without_colours() {
         all.dedup();
         assert_eq!(all.len(), 6, "radius {radius}: two states look the same:\n{all:#?}");
     }
-}
-
-#[test]
-fn both_views_show_one_x_in_one_column() {
-    for width in 60..=200 {
-        for (pan, zoom) in [(0.0, 1.0), (0.77, 1.0), (-1.1, 2.5)] {
-            let mut scene = stages::scene("plane", &[]);
-            let plane = stages::wall(dvec3(0.4, 5.0, 0.0), dvec3(0.0, 99.0, 0.0), dvec3(0.0, 0.0, 99.0), None);
-            stages::edit(&mut scene, |stage| stage.walls = vec![plane]);
-            (scene.view_settings.pan.x, scene.view_settings.zoom, scene.view_settings.marker) =
-                (pan, zoom, Marker::Ascii);
-            let frame = text(&scene, width, 24);
-            let lines: Vec<&str> = frame.lines().collect();
-            let right = lines[1].find(" top-down").expect("the label of the right view");
-            let columns: Vec<usize> =
-                lines[4].match_indices(['|', '(', ')']).map(|(column, _)| column).take(2).collect();
-            assert_eq!(columns[1] - columns[0], right, "at width {width}:\n{frame}");
-        }
-    }
-}
-
-#[test]
-fn a_metre_is_as_long_across_as_down_in_both_views() {
-    let mut scene = stages::scene("square", &[]);
-    let square = |normal: DVec3| {
-        let edges = if normal.z == 1.0 { (DVec3::X * 4.0, DVec3::Y * 4.0) } else { (DVec3::X * 4.0, DVec3::Z * 4.0) };
-        stages::wall(dvec3(0.0, 5.0, 0.0), edges.0, edges.1, None)
-    };
-    for normal in [DVec3::Z, DVec3::Y] {
-        stages::edit(&mut scene, |stage| stage.walls = vec![square(normal)]);
-        scene.view_settings.views = if normal.z == 1.0 { Views::Side } else { Views::Top };
-        for (width, height) in [(80, 24), (60, 40), (109, 60)] {
-            let frame = text(&scene, width, height);
-            let rows: Vec<&str> =
-                frame.lines().skip(2).take(usize::from(height) - 4).filter(|row| !row.is_empty()).collect();
-            let across = rows[0].trim().chars().count();
-            // A cell is twice as high as wide; each side may lose or gain a cell by where it begins.
-            assert!(across.abs_diff(2 * rows.len()) <= 3, "{across} columns, {} rows:\n{frame}", rows.len());
-        }
-    }
-}
-
-#[test]
-fn the_followed_sphere_stays_in_the_middle() {
-    let mut scene = stages::scene("follow", &[(dvec3(3.0, 2.0, 0.0), DVec3::ZERO)]);
-    stages::edit(&mut scene, |stage| stage.walls.clear());
-    (scene.view_settings.selected, scene.view_settings.follow, scene.view_settings.zoom) = (Some(0), true, 8.0);
-    let here = text(&scene, 80, 24);
-    scene.snapshot.x[0] = dvec3(-1e3, 77.0, 5.0);
-    assert_eq!(text(&scene, 80, 24), here);
 }
 
 #[test]

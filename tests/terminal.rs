@@ -1,7 +1,17 @@
 //! Does the built program treat a real terminal well? Each test runs it in a pseudo-terminal of its own.
 
+#[path = "terminal/bounds.rs"]
+mod bounds;
+#[path = "terminal/config.rs"]
+mod config;
+#[path = "terminal/detection.rs"]
+mod detection;
+#[path = "terminal/dumb.rs"]
+mod dumb;
 #[path = "terminal/input.rs"]
 mod input;
+#[path = "terminal/mouse.rs"]
+mod mouse;
 #[path = "terminal/pacing.rs"]
 mod pacing;
 #[allow(dead_code)] // each test crate uses what it needs

@@ -2,9 +2,11 @@
 
 use super::{
     action::{Action, Direction},
+    comparison,
     input::Effect,
-    keys::{self, Code, Key, pairs},
+    keys::{Code, Key, pairs},
     knobs,
+    line::{LONGEST, Line, Typed},
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
     state::{Open, State},
@@ -13,31 +15,30 @@ use super::{
 use crate::{
     printable,
     scene::Settings,
-    view,
-    worker::{Activity, Command},
+    snapshot::Class,
+    view::{self, CardView},
+    worker::{Activity, Bodies, Command, Stop},
 };
 
-/// Longest text the prompt takes; more than any order needs.
-const PROMPT: usize = 200;
+/// Rows by which PageUp and PageDown move a card.
+const CARD_PAGE: usize = 5;
 
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         (self.answer, self.news) = (None, None);
-        // These work whatever is open and is being typed into.
-        if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
-            keys::action(key).filter(|_| key.ctrl)
-        {
-            return self.act(action);
+        // These work whatever is open and is being typed into, but that Ctrl-C closes the `:` line first.
+        let typing = matches!(self.open, Open::Prompt(_));
+        match self.keymap.action(key).filter(|_| key.ctrl) {
+            Some(Action::Quit) if typing => {}
+            Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) => return self.act(action),
+            _ => {}
+        }
+        if typing {
+            self.key_on_the_line(key);
+            return Effect::DrawNow;
         }
         match &mut self.open {
-            Open::Prompt(text) => match typed(text, key) {
-                Typed::Text => {}
-                Typed::Nothing => self.open = Open::Nothing,
-                Typed::Order(text) => {
-                    self.open = Open::Nothing;
-                    self.order(&text);
-                }
-            },
+            Open::Prompt(_) => {}
             Open::Scenes(list) => match list.handle(key) {
                 Outcome::Stay => {}
                 Outcome::Close => self.open = Open::Nothing,
@@ -54,9 +55,28 @@ impl State {
                     None => return self.act_on(key),
                 }
             }
-            Open::Nothing => return self.act_on(key),
+            Open::Nothing => {
+                if !self.turns_card(key) {
+                    return self.act_on(key);
+                }
+            }
         }
         Effect::DrawNow
+    }
+
+    fn key_on_the_line(&mut self, key: Key) {
+        let scenes = self.scene_names();
+        let context = self.context(&scenes);
+        let Open::Prompt(line) = &mut self.open else { return };
+        match line.key(key, &self.orders, &context) {
+            Typed::Text => {}
+            Typed::Nothing => self.open = Open::Nothing,
+            Typed::Order(text) => {
+                self.open = Open::Nothing;
+                self.orders.remember(&text);
+                self.order(&text);
+            }
+        }
     }
 
     /// Takes pasted text where text is typed.
@@ -69,14 +89,14 @@ impl State {
         if !typing {
             return Effect::Nothing;
         }
-        for c in text.chars().filter(|c| printable::is_printable(*c)).take(PROMPT) {
+        for c in text.chars().filter(|c| printable::is_printable(*c)).take(LONGEST) {
             let _ = self.key(Key::char(c));
         }
         Effect::DrawNow
     }
 
     fn act_on(&mut self, key: Key) -> Effect {
-        match keys::action(key) {
+        match self.keymap.action(key) {
             Some(action) => self.act(action),
             None => Effect::DrawNow, // the message has vanished
         }
@@ -84,13 +104,22 @@ impl State {
 
     /// Does what a key is for. Every action is named, so that a new one that nothing does cannot be built.
     fn act(&mut self, action: Action) -> Effect {
+        let told = std::mem::take(&mut self.cost_told);
         match action {
             Action::Quit => return Effect::Quit,
             Action::Suspend => return Effect::Suspend,
             Action::Repaint => return Effect::Repaint,
             Action::TogglePause => self.toggle_pause(),
-            Action::Step => self.advance(Command::Step),
-            Action::NextImpact => self.advance(Command::NextImpact),
+            Action::Step => self.advance(Command::Forward(1)),
+            Action::TenOn => self.advance(Command::Forward(10)),
+            Action::StepBack => self.head_for(Command::Back(1), true),
+            Action::TenBack => self.head_for(Command::Back(10), true),
+            Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
+            Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
+            Action::Oldest => self.head_for(Command::Oldest, true),
+            Action::Newest => self.head_for(Command::Newest, true),
+            Action::Until => self.open = Open::Prompt(Line::new("until ")),
+            Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
             Action::Reload => self.reload(),
             Action::PreviousScene => self.neighbor_scene(-1),
@@ -103,10 +132,10 @@ impl State {
             Action::Faster => self.go_at(knobs::speed(self.speed, 2.0)),
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
-            Action::Ghost => self.toggle_ghost(),
-            Action::Prompt => self.open = Open::Prompt(String::new()),
+            Action::Ghost => self.toggle_ghost(told),
+            Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
-            Action::Scenes => self.open = Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+            Action::Scenes => self.toggle_scenes(),
             Action::Close => self.close(),
             Action::NextViews => view_settings::next_views(&mut self.view_settings),
             Action::Pan(direction) => self.pan(direction),
@@ -116,8 +145,12 @@ impl State {
             Action::Follow => self.follow(),
             Action::SelectNext => self.select(true),
             Action::SelectPrevious => self.select(false),
-            Action::Inspector => self.toggle_inspector(),
+            Action::Inspector => self.next_inspector(),
+            Action::Card => self.toggle_card(),
+            Action::PreviousTrial => self.turn_trial(false),
+            Action::NextTrial => self.turn_trial(true),
             Action::NextOverlays => self.next_overlays(),
+            Action::Mouse => self.toggle_mouse(),
         }
         Effect::DrawNow
     }
@@ -130,11 +163,14 @@ impl State {
         if self.has_target {
             self.run(false);
         }
+        if matches!(self.open, Open::Nothing) {
+            self.view_settings.card = None;
+        }
         self.open = Open::Nothing;
     }
 
     /// Magnifies by `factor`, or says `at_the_end` where it is already at the end.
-    fn zoom(&mut self, factor: f64, at_the_end: &str) {
+    pub(super) fn zoom(&mut self, factor: f64, at_the_end: &str) {
         if !view_settings::zoom(&mut self.view_settings, factor) {
             self.say(at_the_end);
         }
@@ -154,7 +190,7 @@ impl State {
     /// Steps or runs on from a pause.
     fn advance(&mut self, command: Command) {
         if !self.say_if_stalled() {
-            let on = !matches!(command, Command::Step);
+            let on = !matches!(command, Command::Forward(1));
             self.head_for(command, on);
         }
     }
@@ -167,7 +203,14 @@ impl State {
         }
     }
 
-    fn toggle_ghost(&mut self) {
+    /// Shows the exact run or no longer; `told`: what it costs has been said.
+    fn toggle_ghost(&mut self, told: bool) {
+        let cost = comparison::cost(self.current.scene.spheres.len()).filter(|_| !told && self.comparison.is_none());
+        if let Some(cost) = cost {
+            self.cost_told = true;
+            let key = self.keymap.keys(Action::Ghost).first().map_or_else(|| "its key".into(), Key::to_string);
+            return self.say(format!("{cost}; {key} again starts it."));
+        }
         match self.comparison.take() {
             Some(comparison) => {
                 self.ending = Some(comparison.end());
@@ -182,8 +225,7 @@ impl State {
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
-        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
-        let names: Vec<String> = given.chain(scene_list::built_in_names().map(str::to_owned)).collect();
+        let names = self.scene_names();
         let at = names.iter().position(|name| *name == self.wanted_name());
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
         self.open_scene(&names[next]);
@@ -192,6 +234,13 @@ impl State {
     /// The scenes there are: the file the program was started with, then the built-in ones.
     fn entries(&self) -> Vec<scene_list::Entry> {
         self.given.iter().map(|(entry, _)| entry.clone()).chain(scene_list::built_in()).collect()
+    }
+
+    fn toggle_scenes(&mut self) {
+        self.open = match self.open {
+            Open::Scenes(_) => Open::Nothing,
+            _ => Open::Scenes(SceneList::new(self.entries(), &self.current.name)),
+        };
     }
 
     fn toggle_help(&mut self) {
@@ -207,7 +256,7 @@ impl State {
         view_settings::pan(&mut self.view_settings, direction, span);
     }
 
-    fn let_go(&mut self) {
+    pub(super) fn let_go(&mut self) {
         let x = self.view_settings.selected.and_then(|i| self.report.snapshot.x.get(i));
         view_settings::let_go(&mut self.view_settings, &self.report.snapshot.stage.view, x.copied());
     }
@@ -239,24 +288,94 @@ impl State {
         }
     }
 
-    fn toggle_inspector(&mut self) {
-        self.view_settings.inspector = !self.view_settings.inspector;
-        self.say(if self.view_settings.inspector {
-            "Inspector on."
-        } else {
-            "Inspector off, where the screen has no room."
-        });
+    /// From the numbers to a contact's card, to nothing, and round again.
+    fn next_inspector(&mut self) {
+        let settings = &mut self.view_settings;
+        let shown = view::inspector_is_shown(settings, self.area);
+        let (inspector, card) = match (shown, settings.card) {
+            (false, _) => (true, None),
+            (true, None) => (true, Some(CardView::default())),
+            (true, Some(_)) => (false, None),
+        };
+        (settings.inspector, settings.card) = (Some(inspector), card);
+    }
+
+    fn toggle_card(&mut self) {
+        self.view_settings.card = match self.view_settings.card {
+            Some(_) => None,
+            None => Some(CardView::default()),
+        };
+    }
+
+    /// Goes through the trial steps of the frame's search, from the first to the last and back to the frame's end.
+    fn turn_trial(&mut self, forward: bool) {
+        let trials = self.report.snapshot.trials.len();
+        if trials == 0 {
+            let searched = !self.report.snapshot.probes.is_empty();
+            return self.say(if searched {
+                "This frame's trial steps are not kept: they have too many spheres, or one came back to it."
+            } else {
+                "This frame has searched for no collision time: c goes to a collision."
+            });
+        }
+        let card = self.view_settings.card.get_or_insert_default();
+        card.probe = match (card.probe, forward) {
+            (None, true) => Some(0),
+            (None, false) => Some(trials - 1),
+            (Some(at), true) => Some(at + 1).filter(|at| *at < trials),
+            (Some(at), false) => at.checked_sub(1),
+        };
+    }
+
+    /// Moves the card that is open; whether that is what the key does.
+    fn turns_card(&mut self, key: Key) -> bool {
+        let Some(card) = &mut self.view_settings.card else { return false };
+        let last = self.report.snapshot.contacts.len().saturating_sub(1);
+        let cursor = card.cursor.min(last);
+        let turned = match key {
+            Key { shift: false, ctrl: false, alt: false, code } => match code {
+                Code::Down => CardView { cursor: (cursor + 1).min(last), scroll: 0, ..*card },
+                Code::Up => CardView { cursor: cursor.saturating_sub(1), scroll: 0, ..*card },
+                Code::PageDown => CardView { cursor, scroll: card.scroll + CARD_PAGE, ..*card },
+                Code::PageUp => CardView { cursor, scroll: card.scroll.saturating_sub(CARD_PAGE), ..*card },
+                _ => return false,
+            },
+            _ => return false,
+        };
+        *card = turned;
+        true
+    }
+
+    /// Goes on until what was waited for last comes again.
+    fn until_again(&mut self) {
+        match self.until {
+            Some(stop) => self.advance(Command::Until(stop)),
+            None => self.say("Nothing was waited for yet; u asks until what to run."),
+        }
+    }
+
+    /// Goes to the time `t`, s.
+    pub(super) fn goto(&mut self, t: f64) {
+        self.head_for(Command::Goto(t), true);
+        self.say("On the way to the first frame that ends then or later; Esc stops.");
     }
 
     fn order(&mut self, text: &str) {
-        match prompt::read(text) {
+        match prompt::read(text, &self.context(&[])) {
             Ok(None) => {}
             Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
-            Ok(Some(Order::Goto(t))) => {
-                self.head_for(Command::Goto(t), true);
-                self.say("On the way to the first frame that ends then or later; Esc stops.");
+            Ok(Some(Order::Goto(t))) => self.goto(t),
+            Ok(Some(Order::Method(method))) => self.solve_with(Ok(Settings { method, ..self.settings })),
+            Ok(Some(Order::Scene(name))) => self.open_scene(&name),
+            Ok(Some(Order::Select(index))) => {
+                self.let_go();
+                self.view_settings.selected = index;
+            }
+            Ok(Some(Order::Until(stop))) => {
+                self.until = Some(stop);
+                self.until_again();
             }
             Ok(Some(Order::Hash)) => {
                 let snapshot = &self.report.snapshot;
@@ -269,31 +388,6 @@ impl State {
             Err(said) => self.say(said),
         }
     }
-}
-
-/// What a key on the `:` line has made of it.
-enum Typed {
-    /// A text still being typed.
-    Text,
-    /// Nothing: the line closes.
-    Nothing,
-    /// A text to obey.
-    Order(String),
-}
-
-fn typed(text: &mut String, key: Key) -> Typed {
-    match (key.code, key.typed()) {
-        (Code::Enter, _) => return Typed::Order(std::mem::take(text)),
-        (Code::Escape, _) => return Typed::Nothing,
-        (Code::Backspace, _) => match text.pop() {
-            Some(_) => {}
-            None => return Typed::Nothing,
-        },
-        (Code::Char('u'), None) => text.clear(),
-        (_, Some(c)) if text.len() < PROMPT => text.push(c),
-        _ => {}
-    }
-    Typed::Text
 }
 
 /// Where a key scrolls a text that goes down by `limit` rows at most, on a screen of so many, if it is a scrolling key.

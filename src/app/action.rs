@@ -7,8 +7,24 @@ pub enum Action {
     TogglePause,
     /// One frame further.
     Step,
+    /// One frame back.
+    StepBack,
+    /// Ten frames further.
+    TenOn,
+    /// Ten frames back.
+    TenBack,
     /// On to the next frame with an impact.
     NextImpact,
+    /// Back to the frame with the impact before.
+    PreviousImpact,
+    /// Back to the first frame that is kept.
+    Oldest,
+    /// On to the newest frame.
+    Newest,
+    /// Type what to run until.
+    Until,
+    /// Run until it comes again.
+    UntilAgain,
     /// Back to t = 0.
     Restart,
     /// Read the scene's file again.
@@ -53,6 +69,12 @@ pub enum Action {
     SelectPrevious,
     /// Show the inspector, or hide it.
     Inspector,
+    /// Take a contact of the frame apart, or close its card.
+    Card,
+    /// Show the trial step before in the views.
+    PreviousTrial,
+    /// Show the next trial step in the views.
+    NextTrial,
     /// The next set of overlays.
     NextOverlays,
     /// Show where the exact run is now, or stop.
@@ -61,6 +83,8 @@ pub enum Action {
     Prompt,
     /// Show the keys, or hide them.
     Help,
+    /// Have the terminal report the mouse, or leave it to the terminal.
+    Mouse,
     /// Draw everything again.
     Repaint,
     /// Give the terminal back to the shell for a while.
@@ -69,6 +93,24 @@ pub enum Action {
     Quit,
     /// Close what is open.
     Close,
+}
+
+impl Action {
+    /// Its name in a configuration: `step`, `pan_left`.
+    pub fn name(self) -> String {
+        let mut name = String::new();
+        for c in format!("{self:?}").chars().filter(|c| *c != ')') {
+            match c {
+                '(' => {}
+                c if c.is_ascii_uppercase() => {
+                    name.extend((!name.is_empty()).then_some('_'));
+                    name.push(c.to_ascii_lowercase());
+                }
+                c => name.push(c),
+            }
+        }
+        name
+    }
 }
 
 /// Where the view moves to on the screen.

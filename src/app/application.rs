@@ -4,9 +4,11 @@ use ratatui::{buffer::Buffer, layout::Position};
 
 use super::{
     comparison::Comparison,
+    hints::hints,
     input::{Effect, Input, Setup},
     keys::pairs,
-    state::{Open, STALLED, State},
+    said,
+    state::{Open, State},
 };
 use crate::{
     snapshot::Ghost,
@@ -32,6 +34,7 @@ impl App {
     pub fn handle(&mut self, input: Input) -> Effect {
         match input {
             Input::Key(key) => self.state.key(key),
+            Input::Mouse(mouse) => self.state.mouse(mouse, |state, show| with_screen(state, show)),
             Input::Paste(text) => self.state.paste(&text),
             Input::News => self.news(),
         }
@@ -41,6 +44,26 @@ impl App {
     pub fn draw(&mut self, buffer: &mut Buffer) {
         self.state.area = buffer.area;
         self.with_screen(|screen| view::draw(screen, buffer.area, buffer));
+    }
+
+    /// What there is to say, until the next key.
+    pub fn said(&self) -> Option<String> {
+        self.state.message()
+    }
+
+    /// Whether the run goes on and on, to no target.
+    pub fn runs_freely(&self) -> bool {
+        self.state.running && !self.state.has_target
+    }
+
+    /// Changes how things are shown, now that more is known of the terminal.
+    pub fn adapt(&mut self, change: impl FnOnce(&mut ViewSettings)) {
+        change(&mut self.state.view_settings);
+    }
+
+    /// Whether the terminal shall report the mouse.
+    pub fn wants_mouse(&self) -> bool {
+        self.state.pointer.on
     }
 
     /// Where the terminal's cursor belongs in the picture last drawn; `None`: nowhere.
@@ -94,15 +117,27 @@ impl App {
         if let Some(said) = &self.state.report.panic {
             return Effect::Fail(said.clone());
         }
+        if before.snapshot.t != self.state.report.snapshot.t
+            && let Some(card) = &mut self.state.view_settings.card
+        {
+            (card.probe, card.scroll) = (None, 0); // another frame, another search
+        }
         if let Some(comparison) = &mut self.state.comparison {
             comparison.follow(&before, &self.state.report);
         }
         if self.state.report.obeyed == self.state.worker.sent() {
             self.state.running = self.state.report.activity == Activity::Running;
             self.state.has_target &= self.state.running;
+            self.state.settings = self.state.report.settings;
+        }
+        if let Some((count, said)) = &self.state.report.said
+            && before.said.is_none_or(|(before, _)| before < *count)
+        {
+            let sentence = said::sentence(said, self.state.report.snapshot.stage.duration);
+            self.state.tell(sentence);
         }
         if self.state.report.activity == Activity::Stalled && before.activity != Activity::Stalled {
-            self.state.tell(STALLED);
+            self.state.tell(self.state.stalled());
         }
         if self.state.report.obeyed == before.obeyed && self.state.report.activity == before.activity {
             Effect::Draw
@@ -113,37 +148,52 @@ impl App {
 
     /// The screen as it stands, lent to `show`.
     fn with_screen<T>(&self, show: impl FnOnce(&Screen) -> T) -> T {
-        let message = self.state.message();
-        let (help, hints) = (pairs(&self.state.help), pairs(&self.state.hints));
-        let entries: Vec<(&str, &str)> = match &self.state.open {
-            Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
-            _ => Vec::new(),
-        };
-        show(&Screen {
-            snapshot: &self.state.report.snapshot,
-            pace: pace(&self.state.report),
-            ticks: &self.state.report.ticks,
-            comparison: self.state.comparison.as_ref().map(Comparison::shown),
-            view_settings: &self.state.view_settings,
-            popup: match &self.state.open {
-                Open::Nothing => Popup::None,
-                Open::Prompt(text) => Popup::Prompt { text },
-                Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
-                Open::Scenes(list) => Popup::Scenes {
-                    filter: list.filter(),
-                    filtering: list.filtering(),
-                    entries: &entries,
-                    cursor: list.cursor(),
-                },
-            },
-            message: message.as_deref(),
-            hints: &hints,
-        })
+        with_screen(&self.state, show)
     }
+}
+
+/// The screen of a state, lent to `show`.
+fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
+    let message = state.message();
+    let snapshot = &state.report.snapshot;
+    let trial = state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
+    let hints = hints(&state.keymap, state.place());
+    let (help, hints) = (pairs(&state.help), pairs(&hints));
+    let entries: Vec<(&str, &str)> = match &state.open {
+        Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
+        _ => Vec::new(),
+    };
+    let scenes = state.scene_names();
+    let offers = match &state.open {
+        Open::Prompt(line) => line.offers(&state.context(&scenes)).join("  "),
+        _ => String::new(),
+    };
+    show(&Screen {
+        snapshot: trial.as_ref().unwrap_or(snapshot),
+        pace: pace(&state.report),
+        ticks: &state.report.ticks,
+        kept: state.report.kept,
+        comparison: state.comparison.as_ref().map(Comparison::shown),
+        view_settings: &state.view_settings,
+        popup: match &state.open {
+            Open::Nothing => Popup::None,
+            Open::Prompt(line) => Popup::Prompt { text: line.text(), cursor: line.cursor(), offers: &offers },
+            Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
+            Open::Scenes(list) => Popup::Scenes {
+                filter: list.filter(),
+                filtering: list.filtering(),
+                entries: &entries,
+                cursor: list.cursor(),
+            },
+        },
+        message: message.as_deref(),
+        hints: &hints,
+    })
 }
 
 fn pace(report: &Report) -> Pace {
     let mode = match report.activity {
+        _ if report.kept.is_past => Mode::Back,
         Activity::Running => Mode::Run,
         Activity::Paused => Mode::Pause,
         Activity::Stalled => Mode::Stalled,

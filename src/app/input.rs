@@ -1,9 +1,9 @@
 //! What the application starts with, what reaches it, and what it asks for in turn.
 
-use super::keys::Key;
+use super::{keymap::Keymap, keys::Key, mouse::Mouse};
 use crate::{
     scene::{Opened, Settings},
-    view::{Colors, Marker},
+    view::{Colors, Inks, Marker},
 };
 
 /// What the application starts with.
@@ -19,6 +19,10 @@ pub struct Setup {
     pub marker: Marker,
     /// Depth of colour.
     pub colors: Colors,
+    /// The user's own colours.
+    pub inks: Inks,
+    /// Which key does what.
+    pub keymap: Keymap,
 }
 
 /// What reaches the application from outside.
@@ -26,6 +30,8 @@ pub struct Setup {
 pub enum Input {
     /// A key was pressed.
     Key(Key),
+    /// The mouse was used.
+    Mouse(Mouse),
     /// Text was pasted: taken where text is typed, and nowhere else.
     Paste(String),
     /// The worker has called `notify`.

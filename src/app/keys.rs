@@ -116,7 +116,15 @@ use Key as K;
 const TABLE: &[Binding] = &[
     hint(&[K::char(' '), K::char('p')], Action::TogglePause, "pause / run", "pause/run"),
     hint(&[K::char('.'), K::char('n'), K::plain(Code::Right)], Action::Step, "step one frame", "step"),
-    hint(&[K::char('c')], Action::NextImpact, "run to the next collision", "collision"),
+    hint(&[K::char(','), K::char('N'), K::plain(Code::Left)], Action::StepBack, "step one frame back", "back"),
+    hint(&[K::char('c')], Action::NextImpact, "to the next, previous collision", "collision"),
+    bind(&[K::char('C')], Action::PreviousImpact, "to the next, previous collision"),
+    bind(&[K::char('<')], Action::TenBack, "ten frames back, on"),
+    bind(&[K::char('>')], Action::TenOn, "ten frames back, on"),
+    bind(&[K::char('g')], Action::Oldest, "to the start, to the newest frame"),
+    bind(&[K::char('G')], Action::Newest, "to the start, to the newest frame"),
+    bind(&[K::char('u')], Action::Until, "run until something comes: type what"),
+    bind(&[K::char('U')], Action::UntilAgain, "run until it comes again"),
     hint(&[K::char('r')], Action::Restart, "restart", "restart"),
     bind(&[K::char('R')], Action::Reload, "reload the scene's file"),
     bind(&[K::char('[')], Action::PreviousScene, "previous, next scene"),
@@ -135,7 +143,14 @@ const TABLE: &[Binding] = &[
     hint(&[K::plain(Code::Tab)], Action::SelectNext, "select next, previous sphere", "select"),
     bind(&[K::shift(Code::Tab)], Action::SelectPrevious, "select next, previous sphere"),
     bind(&[K::char('f')], Action::Follow, "follow the selected sphere"),
-    bind(&[K::char('i')], Action::Inspector, "inspector"),
+    bind(&[K::char('i')], Action::Inspector, "inspector: numbers, a contact's card, off"),
+    bind(
+        &[K::char('w'), K::plain(Code::Enter)],
+        Action::Card,
+        "why: a contact's card; Up Down choose, PageUp PageDown scroll",
+    ),
+    bind(&[K::char('(')], Action::PreviousTrial, "previous, next trial step of the search, in the views too"),
+    bind(&[K::char(')')], Action::NextTrial, "previous, next trial step of the search, in the views too"),
     hint(&[K::char('v')], Action::NextViews, "views: both, side, top", "views"),
     bind(&[K::char('d')], Action::NextOverlays, "overlays: contacts, + normals, velocities, ids, all, none"),
     bind(&[K::char('x')], Action::Ghost, "ghost: where the exact run is now, errors and cost over time"),
@@ -146,39 +161,19 @@ const TABLE: &[Binding] = &[
     bind(&[K::char('z')], Action::ZoomIn, "zoom in, out"),
     bind(&[K::char('Z')], Action::ZoomOut, "zoom in, out"),
     bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
-    bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25"),
+    bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25, until rest"),
+    bind(&[K::char('%')], Action::Mouse, "mouse on, off"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
     bind(&[K::ctrl('z')], Action::Suspend, "suspend"),
     bind(&[K::plain(Code::Escape)], Action::Close, "close what is open"),
 ];
 
 /// What the keys do in the scene list, for the help; `scene_list` obeys them.
-const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
+pub(super) const IN_THE_LIST: (&str, &str) = ("j k Up Down / Enter", "in the scene list: move, filter, open");
 
 /// The rows that have an effect in this program: with one method there is no next one.
 pub fn table() -> impl Iterator<Item = &'static Binding> {
     TABLE.iter().filter(|row| row.action != Action::NextMethod || Method::ALL.len() > 1)
-}
-
-/// What `key` does.
-pub fn action(key: Key) -> Option<Action> {
-    table().find(|row| row.keys.contains(&key)).map(|row| row.action)
-}
-
-/// The help: (keys, what they do). Neighbours in the table that do sides of the same share a row, a key each.
-pub fn help_rows() -> Vec<(String, &'static str)> {
-    let bindings: Vec<&Binding> = table().collect();
-    let rows = bindings.chunk_by(|a, b| a.does == b.does).map(|same| {
-        let each = if same.len() > 1 { 1 } else { usize::MAX };
-        let keys = same.iter().flat_map(|row| row.keys.iter().take(each));
-        (keys.map(Key::to_string).collect::<Vec<_>>().join(" "), same[0].does)
-    });
-    rows.chain([(IN_THE_LIST.0.to_owned(), IN_THE_LIST.1)]).collect()
-}
-
-/// The hint line, the most needed first: (key, a word).
-pub fn hints() -> Vec<(String, &'static str)> {
-    table().filter_map(|row| row.hint.map(|word| (row.keys[0].to_string(), word))).collect()
 }
 
 /// The rows of a table of keys as slices.
@@ -195,21 +190,6 @@ mod tests {
         let keys: Vec<Key> = table().flat_map(|row| row.keys).copied().collect();
         for (i, key) in keys.iter().enumerate() {
             assert!(!keys[..i].contains(key), "{key}");
-        }
-    }
-
-    #[test]
-    fn the_hints_lead_to_the_help_and_out_on_80_columns_and_all_labels_are_plain_ascii() {
-        let mut column = 0;
-        for (key, word) in hints() {
-            column += key.len() + 1 + word.len() + 2;
-            if word == "quit" {
-                break;
-            }
-        }
-        assert!(column <= 80, "`quit` ends in column {column}");
-        for (keys, does) in help_rows() {
-            assert!(keys.is_ascii() && does.is_ascii(), "{keys} {does}");
         }
     }
 

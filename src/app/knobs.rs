@@ -1,5 +1,6 @@
 //! The values that keys turn: tolerance, dt, speed. Bounded, and free of rounding noise after many turns.
 
+use crate::physics::{Effect, knobs};
 use crate::scene::{Method, Settings};
 
 /// Finest and coarsest tolerance the keys reach, dimensionless: the resolution of f64, and the degree at which a
@@ -57,6 +58,16 @@ fn edge(what: &str, value: f64, factor: f64, example: &str) -> String {
     format!("The keys take {what} no {end}er than {value:e}; exact values: :{example}")
 }
 
+/// What to say of a knob that was turned and that the method does not have, if that is so.
+pub(super) fn in_vain(before: Settings, after: Settings) -> Option<String> {
+    let (knobs, method) = (knobs(after.method), after.method.name());
+    if before.tolerance != after.tolerance && knobs.tolerance == Effect::Nothing {
+        return Some(format!("{method} accepts no overlap: the tolerance changes nothing until the method changes."));
+    }
+    let frames = before.dt != after.dt && knobs.dt == Effect::Nothing;
+    frames.then(|| format!("{method} has no time step: dt is only how long a frame lasts on the screen."))
+}
+
 /// The settings with the method that comes after theirs.
 pub(super) fn next_method(settings: Settings) -> Settings {
     let at = Method::ALL.iter().position(|method| *method == settings.method).unwrap_or(0);
@@ -90,6 +101,19 @@ mod tests {
             settings = tolerance(settings, 10.0).expect("and back");
         }
         assert_eq!(settings, AT);
+    }
+
+    #[test]
+    fn a_knob_that_the_method_does_not_have_says_so() {
+        let exact = Settings { method: Method::Exact, ..AT };
+        let said = in_vain(exact, Settings { tolerance: 1e-6, ..exact }).expect("exact has no tolerance");
+        assert!(said.contains("tolerance changes nothing"), "{said}");
+        let said = in_vain(exact, Settings { dt: 0.1, ..exact }).expect("exact has no step");
+        assert!(said.contains("no time step"), "{said}");
+        assert_eq!(in_vain(exact, AT), None, "the method changed, no knob");
+        assert_eq!(in_vain(AT, Settings { dt: 0.1, tolerance: 0.1, ..AT }), None, "paper has both");
+        let swept = Settings { method: Method::Swept, ..AT };
+        assert_eq!(in_vain(swept, Settings { dt: 0.1, ..swept }), None, "its dt costs");
     }
 
     #[test]

@@ -9,9 +9,14 @@
 //! | `input` | what the application starts with, what reaches it, what it asks for |
 //! | `application` | the application as its owner sees it: inputs in, a buffer out |
 //! | `state` | what it holds, and the steps that keys and news are made of |
-//! | `keys`, `action` | which key does what |
+//! | `keys`, `action` | the keys, the table of what each does, and the actions |
+//! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `hints` | the keys that are useful where one is |
+//! | `line` | the `:` line while it is typed |
+//! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
+//! | `mouse`, `pointer` | the mouse, and what it does |
 //! | `comparison` | the exact run beside the one shown |
 
 mod act;
@@ -19,17 +24,27 @@ mod action;
 mod application;
 mod comparison;
 mod current;
+mod hints;
 mod input;
+mod key_name;
+mod keymap;
 mod keys;
 mod knobs;
+mod line;
 mod loading;
+mod mouse;
 mod opening;
+mod pointer;
 mod prompt;
+mod said;
 mod scene_list;
 mod state;
+mod until;
 mod view_settings;
 
 pub use action::{Action, Direction};
 pub use application::App;
 pub use input::{Effect, Input, Setup};
-pub use keys::{Binding, Code, Key, action, help_rows, hints, table};
+pub use keymap::{Clash, Keymap, help_rows, hints};
+pub use keys::{Binding, Code, Key, table};
+pub use mouse::{Gesture, Mouse};

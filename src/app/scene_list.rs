@@ -105,7 +105,7 @@ impl SceneList {
                 self.filtering = true;
                 Outcome::Stay
             }
-            Code::Char('o') | Code::Escape => Outcome::Close,
+            Code::Escape => Outcome::Close,
             _ => Outcome::NotMine,
         }
     }

@@ -5,23 +5,27 @@ use std::{path::PathBuf, sync::Arc};
 use ratatui::layout::Rect;
 
 use super::{
+    action::Action,
     comparison::Comparison,
     current::Current,
+    hints::Place,
     input::Setup,
-    keys::{help_rows, hints},
+    keymap::Keymap,
+    knobs,
+    line::{Line, Orders},
     loading::Loading,
+    mouse::Pointer,
+    prompt::Context,
     scene_list::{self, SceneList},
     view_settings,
 };
 use crate::{
     printable,
     scene::{self, Settings},
-    view::{Colors, Marker, ViewSettings},
-    worker::{Activity, Command, Ending, Errands, Notify, Report, Worker},
+    snapshot::Class,
+    view::ViewSettings,
+    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
-
-/// What to do where a run cannot go on; why it cannot is on the screen already.
-pub(super) const STALLED: &str = "The run cannot go on from here: m changes the method, r restarts.";
 
 /// What is open over the views.
 #[derive(Debug)]
@@ -29,7 +33,7 @@ pub(super) enum Open {
     Nothing,
     Help { scroll: usize },
     Scenes(SceneList),
-    Prompt(String),
+    Prompt(Line),
 }
 
 /// What the application holds.
@@ -45,8 +49,12 @@ pub(super) struct State {
     pub(super) running: bool,
     /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
     pub(super) has_target: bool,
+    /// What was waited for last.
+    pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.
     pub(super) comparison: Option<Comparison>,
+    /// Whether the last key was told what the exact run costs.
+    pub(super) cost_told: bool,
     /// The exact run shown before, while its thread ends.
     pub(super) ending: Option<Ending>,
     /// The scene that comes next, if one is being opened, and the channel that it arrives on.
@@ -55,14 +63,17 @@ pub(super) struct State {
     pub(super) notify: Notify,
     pub(super) view_settings: ViewSettings,
     pub(super) open: Open,
+    /// Orders given on the `:` line.
+    pub(super) orders: Orders,
     /// What the last key has led to, until the next key.
     pub(super) answer: Option<String>,
     /// What happened unasked and is worth a line, until the next key.
     pub(super) news: Option<String>,
+    pub(super) keymap: Keymap,
+    pub(super) pointer: Pointer,
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
-    pub(super) hints: Vec<(String, &'static str)>,
 }
 
 impl State {
@@ -77,6 +88,8 @@ impl State {
         let about = current.scene.about.clone();
         let entry = scene_list::Entry { name: current.name.clone(), about };
         let given = current.path.clone().map(|path| (entry, path));
+        let view_settings =
+            ViewSettings { marker: setup.marker, colors: setup.colors, inks: setup.inks, ..ViewSettings::default() };
         let mut state = State {
             worker,
             report,
@@ -86,24 +99,54 @@ impl State {
             speed: 1.0,
             running: false,
             has_target: false,
+            until: None,
             comparison: None,
+            cost_told: false,
             ending: None,
             loading: None,
             errands: None,
             notify,
-            view_settings: first_view_settings(setup.marker, setup.colors),
+            view_settings,
             open: Open::Nothing,
+            orders: Orders::default(),
             answer: None,
             news: None,
             area: Rect::default(),
-            help: help_rows(),
-            hints: hints(),
+            help: setup.keymap.help_rows(),
+            keymap: setup.keymap,
+            pointer: Pointer::default(),
         };
         state.warn();
         if !setup.paused {
             state.run(true);
         }
         Ok(state)
+    }
+
+    /// The names of all scenes: the file the program was started with, then the built-in ones.
+    pub(super) fn scene_names(&self) -> Vec<String> {
+        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
+        given.chain(scene_list::built_in_names().map(str::to_owned)).collect()
+    }
+
+    /// What the hint line is for.
+    pub(super) fn place(&self) -> Place {
+        let snapshot = &self.report.snapshot;
+        let struck = || snapshot.contacts.iter().any(|contact| contact.class == Class::Collide);
+        match (&self.open, self.report.activity) {
+            (Open::Scenes(_), _) => Place::List,
+            (Open::Help { .. }, _) => Place::Help,
+            _ if self.report.kept.is_past => Place::Past,
+            (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
+            _ => Place::Run,
+        }
+    }
+
+    /// What can be named on the `:` line, where there are these scenes.
+    pub(super) fn context<'a>(&self, scenes: &'a [String]) -> Context<'a> {
+        let stage = &self.current.stage;
+        let (spheres, walls) = (stage.radii.len(), stage.walls.len());
+        Context { spheres, walls, selected: self.view_settings.selected, scenes }
     }
 
     /// Answers the last key, in place of the key hints, until the next key.
@@ -134,11 +177,20 @@ impl State {
         self.worker.send(command);
     }
 
+    /// What to do where a run cannot go on; why it cannot is on the screen already.
+    pub(super) fn stalled(&self) -> String {
+        let ways = [(Action::NextMethod, "changes the method"), (Action::Restart, "restarts")];
+        let way = |(action, does): (Action, &str)| self.keymap.keys(action).first().map(|key| format!("{key} {does}"));
+        let ways: Vec<String> = ways.into_iter().filter_map(way).collect();
+        let ways = if ways.is_empty() { String::new() } else { format!(": {}", ways.join(", ")) };
+        format!("The run cannot go on from here{ways}.")
+    }
+
     /// A stalled run can't go on: says why, and whether that was so.
     pub(super) fn say_if_stalled(&mut self) -> bool {
         let stalled = self.report.obeyed == self.worker.sent() && self.report.activity == Activity::Stalled;
         if stalled {
-            self.say(STALLED);
+            self.say(self.stalled());
         }
         stalled
     }
@@ -152,6 +204,7 @@ impl State {
         self.run(running);
         view_settings::whole_scene(&mut self.view_settings);
         self.view_settings.selected = None;
+        self.until = None;
         if self.comparison.is_some() {
             self.compare();
         }
@@ -177,6 +230,9 @@ impl State {
     pub(super) fn solve_with(&mut self, settings: Result<Settings, String>) {
         match settings {
             Ok(settings) => {
+                if let Some(said) = knobs::in_vain(self.settings, settings) {
+                    self.say(said);
+                }
                 self.settings = settings;
                 self.worker.send(Command::Settings(settings));
             }
@@ -193,9 +249,4 @@ impl State {
             Err(said) => self.say(said),
         }
     }
-}
-
-/// Both views, the whole scene, nothing selected.
-fn first_view_settings(marker: Marker, colors: Colors) -> ViewSettings {
-    ViewSettings { marker, colors, ..ViewSettings::default() }
 }

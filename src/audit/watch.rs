@@ -30,6 +30,8 @@ pub struct Alarm {
     pub overlap: Option<Finding>,
     /// The largest rise of energy beyond rounding, if there is one.
     pub energy: Option<Finding>,
+    /// Why the method may have raised it, as the end of a sentence, if that is known.
+    pub cause: Option<&'static str>,
 }
 
 impl Alarm {
@@ -46,7 +48,9 @@ impl Alarm {
 
     /// A sentence for each kind.
     pub fn sentences(&self) -> Vec<String> {
-        [self.overlap, self.energy].into_iter().flatten().map(|finding| finding.to_string()).collect()
+        let because = self.cause.map(|cause| format!(": {cause}")).unwrap_or_default();
+        let energy = self.energy.map(|finding| format!("{finding}{because}"));
+        self.overlap.map(|finding| finding.to_string()).into_iter().chain(energy).collect()
     }
 }
 
@@ -123,12 +127,26 @@ impl Watch {
             note(&mut self.alarm.overlap, Fault::Overlap, state.t, key.into(), [degree, deepest]);
         }
         let rise = self.energy.rise(model, state, impacts);
+        let silent = self.alarm.energy.is_none();
         note(&mut self.alarm.energy, Fault::Energy, state.t, Bodies::All, rise);
+        if silent && self.alarm.energy.is_some() {
+            self.alarm.cause = cause(self.settings.method);
+        }
     }
 
     /// What was wrong so far.
     pub fn alarm(&self) -> &Alarm {
         &self.alarm
+    }
+}
+
+/// What is known to raise the energy of a method's run.
+fn cause(method: Method) -> Option<&'static str> {
+    match method {
+        Method::Paper => Some(
+            "paper answers all contacts of a frame from the same velocities, so that a sphere struck by several at once is pushed too hard",
+        ),
+        Method::Exact | Method::Swept | Method::Moreau => None,
     }
 }
 

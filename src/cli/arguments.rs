@@ -9,18 +9,28 @@ use clap_complete::Shell;
 
 use super::numbers;
 use super::target::Target;
+use crate::config;
 use crate::measure::Shard;
+use crate::printable;
 use crate::scene::{Method, Settings};
 use crate::view::{Colors, Marker};
 
-const AFTER: &str = "\
+/// The end of the help, with the place of the configuration on this machine.
+fn after() -> String {
+    let place = config::default_path()
+        .map_or_else(|| "none without a home folder".into(), |path| printable::name(path.as_os_str()));
+    format!("Configuration: {place}, or the file that --config or {} names.\n{AFTER}", config::VARIABLE)
+}
+
+/// The end of the help and of the manual page.
+pub(super) const AFTER: &str = "\
 Results go to standard output, everything else to standard error.
 Exit status: 0 done, 1 failed, 2 wrong usage, 128 + n ended by signal n.
 A signal to end that is ignored at the start, as SIGHUP is under nohup, stays ignored.";
 
 /// Rigid spheres bouncing between parallelogram walls and each other: how much accuracy for how much time?
 #[derive(Debug, Parser)]
-#[command(name = "carom", version, about, after_help = AFTER, args_conflicts_with_subcommands = true)]
+#[command(name = "carom", version, about, after_help = after(), args_conflicts_with_subcommands = true)]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Option<Command>,
@@ -42,10 +52,16 @@ pub(super) enum Command {
     Run(Run),
     /// Print one frame of the screen
     Render(Render),
+    /// Record a run: a file that proves itself, or a film of the screen
+    Record(Record),
+    /// Run a recording again, and name the first frame and sphere that differ
+    Replay(Replay),
     /// Measure how much accuracy costs how much time
     Measure(Measure),
     /// Measure known results of physics and mathematics on this machine
     Verify(Verify),
+    /// Print the default configuration, a file to start one's own from
+    Config,
     /// Print the completions for a shell
     Completions(Completions),
     /// Print the manual page
@@ -55,22 +71,25 @@ pub(super) enum Command {
 /// The TUI.
 #[derive(Debug, Args)]
 pub(super) struct Play {
-    /// Scene file or built-in name; without one, the first built-in scene
+    /// Scene file or built-in name [default: that of the configuration, else the first built-in scene]
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) scene: Option<OsString>,
     #[command(flatten)]
     pub(super) solver: Solver,
-    /// Start paused
+    /// Start paused; with --text, every line of standard input is keys then
     #[arg(long)]
     pub(super) paused: bool,
     #[command(flatten)]
     pub(super) display: Display,
     /// Most bytes per second to the terminal, k for thousands, M for millions: for lines that are shared or dear
-    #[arg(long, value_name = "B", value_parser = numbers::bandwidth)]
+    #[arg(long, value_name = "B", value_parser = config::bandwidth)]
     pub(super) bandwidth: Option<u64>,
     /// Tell the run in lines, one per event, without a screen
     #[arg(long)]
     pub(super) text: bool,
+    /// Configuration to read instead of the usual one; /dev/null for none
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) config: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -121,6 +140,38 @@ pub(super) struct Run {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct Record {
+    /// Scene file or built-in name
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) scene: OsString,
+    /// What to write: .carom has the scene, the settings and eight bytes per frame, .cast is an asciicast (v3) with a marker
+    /// per collision
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// End of the run, s [default: the scene's duration]
+    #[arg(long, value_name = "T", value_parser = numbers::not_negative, allow_hyphen_values = true)]
+    pub(super) until: Option<f64>,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Columns and rows of a film
+    #[arg(long, value_name = "WxH", default_value = "80x24", value_parser = numbers::size)]
+    pub(super) size: (u16, u16),
+    /// Simulated seconds per second of a film
+    #[arg(long, value_name = "X", default_value = "1", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) speed: f64,
+    #[command(flatten)]
+    pub(super) solver: Solver,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Replay {
+    /// A recording, .carom
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct Render {
     /// Scene file or built-in name
     #[arg(value_hint = ValueHint::FilePath)]
@@ -128,6 +179,9 @@ pub(super) struct Render {
     /// Time of the frame, s
     #[arg(long, value_name = "T", default_value = "0", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     pub(super) at: f64,
+    /// The frame of the N-th collision, taken apart
+    #[arg(long, value_name = "N", conflicts_with = "at", value_parser = numbers::count)]
+    pub(super) collision: Option<usize>,
     /// Columns and rows
     #[arg(long, value_name = "WxH", default_value = "80x24", value_parser = numbers::size)]
     pub(super) size: (u16, u16),
@@ -235,9 +289,9 @@ pub(super) struct Display {
     /// What dots are drawn with [default: what the terminal can show]
     #[arg(long, value_enum, value_name = "MARKER")]
     pub(super) marker: Option<Dots>,
-    /// Depth of colour
-    #[arg(long, value_enum, value_name = "COLORS", default_value_t = Color::Auto)]
-    pub(super) color: Color,
+    /// Depth of colour [default: auto]
+    #[arg(long, value_enum, value_name = "COLORS")]
+    pub(super) color: Option<Color>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

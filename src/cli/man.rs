@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use clap::CommandFactory;
 use clap_mangen::Man;
 
-use super::arguments::Arguments;
+use super::arguments::{AFTER, Arguments};
 use super::failure::Failure;
 use super::output::Output;
 
@@ -16,7 +16,8 @@ pub(super) fn man() -> Result<(), Failure> {
 }
 
 fn page(out: &mut impl Write) -> io::Result<()> {
-    let mut command = Arguments::command().disable_help_subcommand(true);
+    // Without the place of the configuration on the machine that prints the page.
+    let mut command = Arguments::command().disable_help_subcommand(true).after_help(AFTER);
     command.build();
     let top = Man::new(command.clone());
     top.render_title(out)?;

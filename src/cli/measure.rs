@@ -28,7 +28,7 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
     refuse_shared(&outputs(arguments), &merged)?;
     let files = Files::open(arguments)?;
     if !arguments.merge.is_empty() {
-        let rows = measure::merge(read_all(&arguments.merge)?).map_err(Failure::Failed)?;
+        let rows = measure::merge(read_all(&arguments.merge)?).map_err(|error| Failure::Failed(error.to_string()))?;
         return files.write(&rows, &allowed(arguments), &[]);
     }
     let measured = sweep(arguments, signals)?;
@@ -75,7 +75,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     opened.iter().filter_map(|opened| endless(opened, &ladder)).for_each(|warning| note(&warning));
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
     let sweep = Sweep::new(scenes, ladder, arguments.shard.unwrap_or(Shard::WHOLE));
-    let sweep = sweep.map_err(Failure::Failed)?;
+    let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let bar = progress_bar(sweep.wanted());
     let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
@@ -152,7 +152,7 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
     for path in paths {
         let name = printable::name(path.as_os_str());
         let text = scene::contents(path, "the CSV of a part").map_err(|message| format!(" {message}"));
-        let rows = text.and_then(|text| read_trade(text.as_slice()));
+        let rows = text.and_then(|text| read_trade(text.as_slice()).map_err(|error| error.to_string()));
         let rows = rows.map_err(|error| Failure::Failed(format!("{name}:{error}")))?;
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }

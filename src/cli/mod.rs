@@ -13,14 +13,21 @@
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
+//! | `frames` | a run without a screen, frame by frame |
+//! | `cast` | a film of the screen, for `carom record` |
+//! | `talk`, `lines` | the application without a screen: lines are keys |
 //! | the rest | one command each |
 
 mod accuracy;
 mod arguments;
+mod cast;
 mod check;
 mod completions;
+mod defaults;
 mod failure;
+mod frames;
 mod judge;
+mod lines;
 mod list;
 mod man;
 mod measure;
@@ -29,11 +36,14 @@ mod numbers;
 mod output;
 mod place;
 mod play;
+mod record;
 mod render;
+mod replay;
 mod rows;
 mod run;
 mod show;
 mod signals;
+mod talk;
 mod target;
 mod verify;
 
@@ -76,8 +86,11 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
+        Command::Record(arguments) => record::record(arguments, signals),
+        Command::Replay(arguments) => replay::replay(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
         Command::Verify(arguments) => verify::verify(arguments, signals),
+        Command::Config => defaults::defaults(),
         Command::Completions(arguments) => completions::completions(arguments),
         Command::Man => man::man(),
     }

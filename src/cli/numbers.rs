@@ -27,18 +27,6 @@ pub(super) fn size(text: &str) -> Result<(u16, u16), String> {
         .ok_or(format!("must be COLUMNSxROWS, such as 80x24, up to {}x{}", LARGEST.0, LARGEST.1))
 }
 
-/// Bytes per second: a whole number from 1, k for thousands, M for millions.
-pub(super) fn bandwidth(text: &str) -> Result<u64, String> {
-    let (digits, unit) = match text.as_bytes().last() {
-        Some(b'k' | b'K') => (&text[..text.len() - 1], 1_000),
-        Some(b'm' | b'M') => (&text[..text.len() - 1], 1_000_000),
-        _ => (text, 1),
-    };
-    let whole = digits.bytes().all(|byte| byte.is_ascii_digit()).then(|| digits.parse::<u64>().ok()).flatten();
-    let bytes = whole.and_then(|count| count.checked_mul(unit)).filter(|bytes| *bytes > 0);
-    bytes.ok_or("must be a whole number of bytes per second from 1, such as 64k or 2M".into())
-}
-
 /// −0 is taken as 0, so that no sign of it can reach a result.
 fn number(text: &str) -> Option<f64> {
     text.parse().ok().map(|value: f64| value + 0.0)
@@ -58,18 +46,6 @@ mod tests {
         }
         for refused in ["-5e-324", "NaN", "infinity", "one"] {
             assert!(not_negative(refused).is_err(), "{refused:?} is no number from 0");
-        }
-    }
-
-    #[test]
-    fn a_bandwidth_is_in_bytes_per_second() {
-        for (text, bytes) in [("64k", 64_000), ("64K", 64_000), ("2M", 2_000_000), ("1", 1), ("007k", 7_000)] {
-            assert_eq!(bandwidth(text), Ok(bytes), "{text}");
-        }
-        for refused in
-            ["", "0", "0k", "k", "-1", "+1", "1.5k", "64 k", "64kb", "1G", "1e3", "99999999999999999999", "é"]
-        {
-            assert!(bandwidth(refused).is_err(), "{refused:?} is no bandwidth");
         }
     }
 

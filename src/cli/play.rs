@@ -1,50 +1,86 @@
 //! `carom [SCENE]`: the TUI, or the run told in lines.
 
+use std::cell::RefCell;
 use std::io::{self, IsTerminal};
 
 use super::accuracy;
-use super::arguments::Play;
+use super::arguments::{Color, Play};
 use super::failure::{Failure, note};
+use super::lines;
 use super::output::Output;
 use super::signals::Signals;
-use crate::scene::{self, Opened, builtin};
+use super::talk::{self, Ears, Event};
+use crate::app::Setup;
+use crate::config::{self, Config};
+use crate::scene::{self, Opened, Settings};
 use crate::terminal::{self, Options, Outcome};
 use crate::text_mode::{self, Ending};
+use crate::view::{Colors, Marker};
 
 pub(super) fn play(arguments: &Play) -> Result<(), Failure> {
     let text = arguments.text || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     if !text && !io::stdout().is_terminal() {
         return Err(Failure::Usage(terminal::Error::NoTerminal.to_string())); // before a scene is read for nothing
     }
-    let name = arguments.scene.as_deref().unwrap_or(builtin::ALL[0].name.as_ref());
+    let config = config::open(arguments.config.as_deref()).map_err(|error| Failure::Usage(error.to_string()))?;
+    let name = arguments.scene.as_deref().unwrap_or(&config.scene);
     let opened = scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
-    if text { tell(arguments, &opened) } else { show(arguments, opened) }
+    if text { tell(arguments, config, opened) } else { show(arguments, config, opened) }
 }
 
-fn tell(arguments: &Play, opened: &Opened) -> Result<(), Failure> {
+fn tell(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure> {
     let signals = Signals::watch()?;
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, Some(&signals))?;
     said.iter().for_each(|said| note(said));
+    let ears = if arguments.paused || lines::are_typed() { Some(Ears::open()?) } else { None };
+    if let Some(ears) = ears.as_ref().filter(|_| arguments.paused) {
+        return talk::talk(setup(config, opened, settings), (0.0, None), ears, &signals);
+    }
     let endless = scene::endless(&opened.scene, settings, opened.scene.duration);
     endless.iter().for_each(|warning| note(&format!("{}: {warning}", opened.key)));
     let mut out = Output::stdout();
-    match text_mode::tell(&opened.scene, settings, &mut out, || signals.check().is_ok())? {
+    // A line that is typed stops the run there; then lines are keys, this one too.
+    let typed = RefCell::new(None);
+    let keep_on = || {
+        if let Some(Ok(Event::Line(Some(line)))) = ears.as_ref().map(|ears| ears.events.try_recv()) {
+            *typed.borrow_mut() = Some(line);
+            return false;
+        }
+        signals.check().is_ok()
+    };
+    match text_mode::tell(&opened.scene, settings, &mut out, keep_on)? {
         Ending::Done => out.finish(),
         Ending::Stalled(stall) => out.finish().and(Err(Failure::Failed(stall.reason))),
-        Ending::Stopped => signals.check(),
+        Ending::Stopped(time) => match ears.zip(typed.take()) {
+            Some((ears, line)) => {
+                out.finish()?;
+                let first = Some(line).filter(|line| !line.is_empty());
+                talk::talk(setup(config, opened, settings), (time, first), &ears, &signals)
+            }
+            None => signals.check(),
+        },
     }
 }
 
-fn show(arguments: &Play, opened: Opened) -> Result<(), Failure> {
+/// The application that a conversation is led with.
+fn setup(config: Config, opened: Opened, settings: Settings) -> Setup {
+    let (marker, colors, inks) = (Marker::Ascii, Colors::Never, config.inks);
+    Setup { opened, settings, paused: true, marker, colors, inks, keymap: config.keymap }
+}
+
+fn show(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure> {
     let (settings, message) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, None)?;
     let options = Options {
         opened,
         settings,
         message,
         paused: arguments.paused,
-        marker: arguments.display.marker.map(Into::into),
-        color: arguments.display.color.depth(),
-        bandwidth: arguments.bandwidth,
+        marker: arguments.display.marker.map(Into::into).or(config.marker),
+        color: arguments.display.color.map_or(config.color, Color::depth),
+        bandwidth: arguments.bandwidth.or(config.bandwidth),
+        frame_rate: config.frame_rate,
+        inks: config.inks,
+        keymap: config.keymap,
     };
     match terminal::run(options) {
         Ok(Outcome::Quit) => Ok(()),

@@ -16,4 +16,4 @@ mod trade;
 pub use note::Note;
 pub use rows::{EventRow, StateRow};
 pub use table::{Format, Row, Table};
-pub use trade::{TradeRow, read_trade};
+pub use trade::{ReadError, TradeRow, read_trade};

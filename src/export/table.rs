@@ -111,6 +111,7 @@ mod tests {
             b: 2,
             point: DVec3::new(1.0, 2.0, 3.0),
             normal: DVec3::Y,
+            velocity: DVec3::NEG_Y * 4.0,
             approach_speed: 4.0,
             separation_speed: 3.2,
             impulse: 3.6,

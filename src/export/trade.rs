@@ -1,6 +1,6 @@
 //! Rows of the trade of accuracy for time: written by `measure --csv`, and read back to be merged.
 
-use std::io;
+use std::{fmt, io};
 
 use serde::{Deserialize, Serialize};
 
@@ -69,8 +69,24 @@ impl Row for TradeRow {
 /// Reads a file of trade rows, each with its line number.
 ///
 /// # Errors
-/// `line: what is wrong there`: a reader that fails, other columns, a cell that is no number.
-pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, String> {
+/// A reader that fails, other columns, a cell that is no number.
+pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, ReadError> {
+    read_rows(reader).map_err(ReadError)
+}
+
+/// Why a file of trade rows is refused. Displays as `line: what is wrong there`, or as ` what is wrong` if it is no line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReadError(String);
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+fn read_rows(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, String> {
     let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(reader);
     let mut records = csv.records();
     let header = records.next().ok_or("1: the file is empty; a measure's CSV begins with its column names")?;
@@ -203,7 +219,7 @@ mod tests {
             (good.replace("stalled", "\u{1b}[2J"), &["2: ", "note", "a control character"]),
             (good.replace("stalled", "\u{202e}"), &["2: ", "note", "a direction mark"]),
         ] {
-            let error = read_trade(text.as_bytes()).expect_err(&text);
+            let error = read_trade(text.as_bytes()).expect_err(&text).to_string();
             assert!(words.iter().all(|word| error.contains(word)), "{error}");
         }
     }

@@ -1,5 +1,6 @@
 //! Many settings on many scenes, side by side, a thread each.
 
+use std::fmt;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -49,6 +50,26 @@ pub struct Yardstick {
     pub growth: f64,
 }
 
+/// Why there is no sweep. Displays as a sentence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SweepError {
+    /// The scene of this name lasts 0 s.
+    NoDuration(String),
+    /// Two scenes have this name.
+    OneName(String),
+}
+
+impl fmt::Display for SweepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SweepError::NoDuration(key) => write!(f, "{key} lasts 0 s; there is nothing to measure"),
+            SweepError::OneName(key) => write!(f, "two scenes are called {key}; their rows could not be told apart"),
+        }
+    }
+}
+
+impl std::error::Error for SweepError {}
+
 /// How far a sweep is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
@@ -60,14 +81,14 @@ pub struct Advance {
 
 impl Sweep {
     /// # Errors
-    /// A sentence, if two scenes have one name, so that their rows could not be told apart, or if one lasts 0 s.
-    pub fn new(mut scenes: Vec<(String, Scene)>, ladder: Ladder, shard: Shard) -> Result<Sweep, String> {
+    /// If two scenes have one name, so that their rows could not be told apart, or if one lasts 0 s.
+    pub fn new(mut scenes: Vec<(String, Scene)>, ladder: Ladder, shard: Shard) -> Result<Sweep, SweepError> {
         scenes.sort_by(|a, b| a.0.cmp(&b.0));
         if let Some((key, _)) = scenes.iter().find(|(_, scene)| scene.duration <= 0.0) {
-            return Err(format!("{key} lasts 0 s; there is nothing to measure"));
+            return Err(SweepError::NoDuration(key.clone()));
         }
         match scenes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            Some(pair) => Err(format!("two scenes are called {}; their rows could not be told apart", pair[0].0)),
+            Some(pair) => Err(SweepError::OneName(pair[0].0.clone())),
             None => Ok(Sweep { scenes, ladder, shard }),
         }
     }

@@ -42,6 +42,8 @@ pub struct Contact {
     pub point: DVec3,
     /// Unit normal, from the contact point to the centre of `a` (pair: from `b` to `a`).
     pub normal: DVec3,
+    /// Velocity of `a` relative to the wall or to `b` before the response, m/s.
+    pub velocity: DVec3,
     /// Approach speed −v_n before the response, m/s.
     pub approach_speed: f64,
     /// Separation speed v_n after the response, m/s.

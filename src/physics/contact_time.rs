@@ -36,7 +36,7 @@ fn quartic_falls(c: &[f64; 5], before: f64) -> ([f64; 3], usize) {
 }
 
 /// |x + v t + a t²/2|² − reach², lowest power first.
-fn distance_polynomial(path: &Path, reach: f64) -> [f64; 5] {
+pub(super) fn distance_polynomial(path: &Path, reach: f64) -> [f64; 5] {
     let Path { x, v, a } = *path;
     [
         x.length_squared() - reach * reach,

@@ -1,5 +1,6 @@
 //! What a run tells of itself: the contacts and probes of its last frame, its events, its tallies.
 
+use super::approach::Approach;
 use super::contact::{Class, Contact, Key, Probe};
 use super::state::Tallies;
 
@@ -10,6 +11,10 @@ pub(crate) struct Log {
     pub(crate) contacts: Vec<Contact>,
     /// Trial steps of the last frame's search.
     pub(crate) probes: Vec<Probe>,
+    /// How the bodies of the last frame's contacts came together, where that is kept.
+    pub(crate) approaches: Vec<Approach>,
+    /// Whether approaches are kept.
+    pub(crate) explaining: bool,
     /// Collide, rest and release rows not yet taken.
     pub(crate) events: Vec<Contact>,
     /// Whether events are kept.
@@ -32,6 +37,15 @@ impl Log {
         if self.recording || self.tallies.frames == 0 {
             self.events.push(row);
         }
+    }
+
+    /// Memory that it takes beside its own size, bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.contacts)
+            + size_of_val(&*self.probes)
+            + size_of_val(&*self.approaches)
+            + size_of_val(&*self.events)
+            + size_of_val(&*self.resting)
     }
 
     /// Compares what rests after a frame, as its contacts (sorted by key) tell, with what rested before: one `rest` row

@@ -63,6 +63,10 @@ pub(super) trait Engine {
     fn step(&self) -> f64;
     /// A copy of the state at `t` (s) within the last frame.
     fn at(&self, model: &Model, t: f64) -> State;
+    /// The state in which the last frame's search tried a step of this length (s); none while another frame is in progress.
+    fn trial(&self, model: &Model, step: f64) -> Option<State> {
+        Some(self.at(model, self.time() - self.step() + step))
+    }
     /// What the method's state follows from beside t, x and v: `paper`: impulses decided at the end of the last frame
     /// that act in the next, N s by sphere; `exact` and `swept`: how the run began, (t, 0, 0), then x and v by sphere;
     /// `moreau`: what held.
@@ -71,6 +75,13 @@ pub(super) trait Engine {
     fn continue_with(&mut self, transient: &[DVec3]);
     /// The state for another method to begin with: pending impulses are already in its velocities.
     fn hand_over(&self, model: &Model) -> State;
+    /// Between frames: a copy without scratch memory and without the inside of the last frame; it goes on bit for bit,
+    /// once [`Engine::wake`] has given it its memory back.
+    fn keep(&self) -> Self;
+    /// Gives a kept copy the memory that it needs to go on.
+    fn wake(&mut self, model: &Model);
+    /// Memory that a kept copy takes beside its own size, bytes, as near as its parts tell.
+    fn bytes(&self) -> usize;
 }
 
 /// What turning a knob changes.

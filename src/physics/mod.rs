@@ -20,13 +20,17 @@
 //! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
 //! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 
+mod approach;
 mod closed_room;
 mod conserved;
 pub mod contact;
+#[doc(hidden)]
 pub mod contact_time;
 mod events;
 mod exact;
+mod frame_contact;
 mod free_flight;
+#[doc(hidden)]
 pub mod impact_law;
 #[cfg(test)]
 pub(crate) mod law_fault;
@@ -34,22 +38,28 @@ mod log;
 pub mod method;
 pub mod model;
 mod moreau;
+#[doc(hidden)]
 pub mod neighbors;
+#[doc(hidden)]
 pub mod overlap;
 mod paper;
+#[doc(hidden)]
 pub mod path;
 pub mod requirements;
 pub mod simulation;
 pub mod state;
+#[doc(hidden)]
 pub mod support;
 mod swept;
+#[doc(hidden)]
 pub mod wall;
 mod wall_parts;
 
+pub use approach::{Approach, Shape};
 pub use contact::{Class, Contact, Kind, Probe};
 pub use events::rest_reason::RestReason;
 pub use method::{Description, Effect, Knobs, Progress, Until, knobs};
 pub use model::{ContactLaw, Method, Model, Scene, Settings};
 pub use requirements::{PairSearch, Requirements};
-pub use simulation::{Simulation, describe, deviations};
-pub use state::{Stall, State, Tallies};
+pub use simulation::{Keyframe, Simulation, describe, deviations, slack};
+pub use state::{Stall, StallKind, State, Tallies};

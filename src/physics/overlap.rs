@@ -162,6 +162,17 @@ impl Finder {
         Finder { cells, ..Finder::default() }
     }
 
+    /// A copy of what was found, without memory to find more.
+    pub(super) fn kept(&self) -> Finder {
+        Finder { found: self.found.clone(), ..Finder::default() }
+    }
+
+    /// Gives a kept copy memory to find more.
+    pub(super) fn wake(&mut self, model: &Model) {
+        let found = std::mem::take(&mut self.found);
+        *self = Finder { found, ..Finder::new(model) };
+    }
+
     /// Finds all overlaps of a state with centres `x` (m) in one go, at load also what touches but for rounding; the
     /// number of degrees computed.
     pub fn all(&mut self, model: &Model, x: &[DVec3], at_load: bool) -> u64 {

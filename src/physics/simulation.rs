@@ -1,10 +1,13 @@
 //! A scene under way: one method that is advanced in slices, and read between frames.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::approach::Approach;
 use super::contact::{Contact, Key, Probe};
+use super::events::engine::MOST_IDLE;
 use super::events::rest_reason::RestReason;
 use super::log::Log;
 use super::method::{Description, Engine, Progress, Until};
@@ -27,6 +30,15 @@ pub fn deviations(method: Method) -> &'static [&'static str] {
     match method {
         Method::Paper => paper::DEVIATIONS,
         Method::Swept | Method::Exact | Method::Moreau => &[],
+    }
+}
+
+/// The overlap that a method accepts beyond the tolerance, dimensionless; none if it accepts nothing beyond it and answers
+/// a contact when it happens, not in the frame after.
+pub fn slack(method: Method) -> Option<f64> {
+    match method {
+        Method::Paper => Some(paper::SLACK),
+        Method::Swept | Method::Exact | Method::Moreau => None,
     }
 }
 
@@ -69,7 +81,8 @@ impl Engines {
 /// A scene under way: one method advancing one state.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    model: Model,
+    /// Shared by all copies of the run.
+    model: Arc<Model>,
     settings: Settings,
     engine: Engines,
     log: Log,
@@ -88,7 +101,7 @@ impl Simulation {
         let mut log = Log::default();
         let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
         let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
-        Simulation { model, settings, engine, log, initial_energy, stall }
+        Simulation { model: Arc::new(model), settings, engine, log, initial_energy, stall }
     }
 
     /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
@@ -103,7 +116,7 @@ impl Simulation {
         each!(&mut engine, engine => engine.continue_with(transient));
         let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
         let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
-        Simulation { model, settings, engine, log, initial_energy, stall }
+        Simulation { model: Arc::new(model), settings, engine, log, initial_energy, stall }
     }
 
     /// Goes on for about `work` units (degree evaluations or events), or to the goal, whichever is first.
@@ -172,6 +185,23 @@ impl Simulation {
         &self.log.probes
     }
 
+    /// The state in which the last frame's search tried a step of this length (s): a probe's degree is that of these
+    /// positions. None while another frame is in progress.
+    pub fn trial(&self, step: f64) -> Option<State> {
+        each!(&self.engine, engine => engine.trial(&self.model, step))
+    }
+
+    /// Keep (or stop keeping) how the bodies of a frame's contacts came together, for [`Simulation::approaches`]. Off at
+    /// first: it costs a polynomial per contact, and never a bit of the result.
+    pub fn explain(&mut self, on: bool) {
+        self.log.explaining = on;
+    }
+
+    /// How the bodies of the last frame's contacts came together, of methods that follow single events, if it was asked for.
+    pub fn approaches(&self) -> &[Approach] {
+        &self.log.approaches
+    }
+
     /// Keep (or stop keeping) every collide, rest and release for [`Simulation::take_events`]. Off at first: it costs
     /// memory, and never a bit of the result. Asked for before the first frame, it includes what happened at load.
     pub fn record_events(&mut self, on: bool) {
@@ -222,13 +252,39 @@ impl Simulation {
             each!(engine, engine => engine.retune(model, settings));
         } else {
             if log.tallies.frames == 0 {
-                *log = Log { recording: log.recording, ..Log::default() };
+                *log = Log { recording: log.recording, explaining: log.explaining, ..Log::default() };
             }
             let state = each!(&*engine, engine => engine.hand_over(model));
             *engine = Engines::begin(model, settings, state, log);
         }
         self.settings = settings;
         self.stall = self.now().runaway(&self.model);
+    }
+
+    /// A small copy of the run between two frames, from which it can be continued bit for bit. Call it after
+    /// [`Simulation::advance`] has answered [`Progress::Reached`]; a frame in progress is not in the copy.
+    pub fn keyframe(&self) -> Keyframe {
+        let Simulation { model, log, settings, initial_energy, .. } = self;
+        let engine = match &self.engine {
+            Engines::Paper(engine) => Engines::Paper(engine.keep()),
+            Engines::Swept(engine) => Engines::Swept(engine.keep()),
+            Engines::Exact(engine) => Engines::Exact(engine.keep()),
+            Engines::Moreau(engine) => Engines::Moreau(engine.keep()),
+        };
+        let log = Log { events: Vec::new(), ..log.clone() };
+        let bytes = size_of::<Simulation>() + each!(&engine, engine => engine.bytes()) + log.bytes();
+        let (model, stall) = (Arc::clone(model), self.now().runaway(model));
+        let kept = Simulation { model, settings: *settings, engine, log, initial_energy: *initial_energy, stall };
+        Keyframe { kept, bytes }
+    }
+
+    /// Whether frames are shown one by one on the way to `time`, s. They are not where dt is so short that they would
+    /// be too many to count: then where frames end depends on the goal, though no bit of the motion does.
+    pub fn counts_frames_to(&self, time: f64) -> bool {
+        match self.settings.method {
+            Method::Exact | Method::Swept => time - self.time() <= MOST_IDLE * self.settings.dt,
+            Method::Paper | Method::Moreau => true,
+        }
     }
 
     /// All that is constant.
@@ -239,5 +295,26 @@ impl Simulation {
     /// The state at the end of the last frame, without a copy where the method holds one.
     fn now(&self) -> Cow<'_, State> {
         each!(&self.engine, engine => engine.state(&self.model))
+    }
+}
+
+/// A moment of a run between two frames, from which it goes on bit for bit: smaller than the run itself.
+#[derive(Debug, Clone)]
+pub struct Keyframe {
+    kept: Simulation,
+    bytes: usize,
+}
+
+impl Keyframe {
+    /// The run as it was, ready to go on; it knows nothing of the inside of its last frame, only its end.
+    pub fn run(&self) -> Simulation {
+        let mut run = self.kept.clone();
+        each!(&mut run.engine, engine => engine.wake(&run.model));
+        run
+    }
+
+    /// Memory that it takes, bytes, as near as its parts tell.
+    pub fn bytes(&self) -> usize {
+        self.bytes
     }
 }

@@ -1,5 +1,7 @@
 //! All that moves: t, x, v; tallies; and why a run cannot go on.
 
+use std::fmt;
+
 use glam::DVec3;
 
 /// Time, positions and velocities. P = m v.
@@ -14,6 +16,11 @@ pub struct State {
 }
 
 impl State {
+    /// Memory that it takes beside its own size, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.x) + size_of_val(&*self.v)
+    }
+
     /// 64-bit FNV-1a (standard offset basis and prime) over the little-endian bytes of t, then of x, then of v, in
     /// index order: equal hashes mean equal bits.
     pub fn hash(&self) -> u64 {
@@ -73,7 +80,7 @@ fn ran_away(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Stall {
         vector(x),
         vector(v)
     );
-    Stall { time: t, kind: "not-finite", reason }
+    Stall { time: t, kind: StallKind::NotFinite, reason }
 }
 
 /// Why a run cannot go on.
@@ -81,8 +88,38 @@ fn ran_away(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Stall {
 pub struct Stall {
     /// When, s.
     pub time: f64,
-    /// A word for `stall=…`, e.g. `resting-contact`.
-    pub kind: &'static str,
+    /// What kind of stall it is.
+    pub kind: StallKind,
     /// A full sentence for people: where, why, and what to try.
     pub reason: String,
+}
+
+/// The kinds of stall. Each displays as the word of `stall=…`, e.g. `resting-contact`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StallKind {
+    /// A step changes the time by less than one ulp.
+    StepTooSmall,
+    /// A step leads too many spheres past each other.
+    StepTooLarge,
+    /// A position or velocity leaves the range of numbers.
+    NotFinite,
+    /// Events went on and on at one time.
+    NoProgress,
+    /// The support forces of resting contacts could not be found, or do not hold.
+    RestingContact,
+    /// Slow impacts come back before they have left the overlap that is accepted.
+    SlowBounce,
+}
+
+impl fmt::Display for StallKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            StallKind::StepTooSmall => "step-too-small",
+            StallKind::StepTooLarge => "step-too-large",
+            StallKind::NotFinite => "not-finite",
+            StallKind::NoProgress => "no-progress",
+            StallKind::RestingContact => "resting-contact",
+            StallKind::SlowBounce => "slow-bounce",
+        })
+    }
 }

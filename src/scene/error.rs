@@ -1,4 +1,4 @@
-//! Why a scene is refused: one full sentence that is safe to print, whatever the file holds.
+//! Why a file is refused: one full sentence that is safe to print, whatever the file holds.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ const ORIGIN: usize = 200;
 /// Longest message shown, characters: a list of all built-in names fits.
 const MESSAGE: usize = 1500;
 
-/// A refused scene. Displays as `FILE:LINE:COLUMN: field.path: what is wrong and what is allowed`, in one line of
+/// A refused scene or configuration. Displays as `FILE:LINE:COLUMN: field.path: what is wrong and what is allowed`, in one line of
 /// bounded length, without control or direction-changing characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
@@ -24,7 +24,7 @@ pub struct Error {
 
 impl Error {
     /// A refusal of a whole file, or of a name that leads to none.
-    pub(super) fn whole(origin: &str, message: impl fmt::Display) -> Error {
+    pub(crate) fn whole(origin: &str, message: impl fmt::Display) -> Error {
         Error {
             origin: shortened(origin, ORIGIN),
             position: None,
@@ -59,18 +59,18 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// A scene's text and where it came from: what a refusal needs to name its place.
+/// A text and where it came from: what a refusal needs to name its place.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     /// The whole file.
-    pub(super) text: &'a str,
+    pub(crate) text: &'a str,
     /// Its path or built-in name.
-    pub(super) origin: &'a str,
+    pub(crate) origin: &'a str,
 }
 
 impl Source<'_> {
     /// A refusal of the value at `path`.
-    pub(super) fn refuse(&self, path: &[Step], message: impl fmt::Display) -> Error {
+    pub(crate) fn refuse(&self, path: &[Step], message: impl fmt::Display) -> Error {
         self.refuse_at(locate(self.text, path), path, message)
     }
 
@@ -94,7 +94,7 @@ fn spelled(path: &[Step]) -> String {
 }
 
 /// A piece of the file in a message, in backticks.
-pub(super) fn quote(text: &str) -> String {
+pub(crate) fn quote(text: &str) -> String {
     format!("`{}`", shortened(text, QUOTE))
 }
 

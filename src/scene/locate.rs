@@ -1,9 +1,9 @@
-//! Where a value stands in a scene file. RON keeps no positions once a value is read, and rules across bodies are
+//! Where a value stands in a file. RON keeps no positions once a value is read, and rules across bodies are
 //! checked only then: so the text is walked once more, and only when there is something to refuse.
 
 /// One step down from a value to a part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Step<'a> {
+pub(crate) enum Step<'a> {
     /// The field of that name.
     Field(&'a str),
     /// The element of that index.

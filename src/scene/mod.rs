@@ -23,6 +23,7 @@
 //! | `validated` | the scene, and the draft that it is made of |
 //! | `draft` | scenes built in code, and scenes that follow from others |
 //! | `open`, `builtin`, `parse`, `key` | from a word of the command line to a text, and from a text to a scene |
+//! | `notation` | RON as text and as values: reading it, and telling what is wrong with it where |
 //! | `file`, `number` | the shape of a scene as written in RON; the range of each single value, as a type |
 //! | `values` | the same ranges, asked of a draft |
 //! | `rules` | every rule that concerns more than one value |
@@ -44,6 +45,7 @@ mod generate;
 mod key;
 mod locate;
 mod near;
+mod notation;
 mod number;
 mod open;
 mod overlaps;
@@ -56,7 +58,14 @@ mod warnings;
 
 pub use error::Error;
 pub use locate::Position;
-pub use open::{Opened, contents, open};
+pub use open::{Opened, contents, open, open_with_text};
 pub use parse::parse;
 pub use validated::{Color, ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};
 pub use warnings::{endless, warnings};
+#[cfg(feature = "cli")]
+pub(crate) use {
+    error::{Source, quote},
+    locate::Step,
+    notation::{Words, read},
+    open::{contents_within, not_text},
+};

@@ -13,8 +13,8 @@ use super::parse::parse;
 use super::validated::Scene;
 use crate::printable;
 
-/// Largest file that is read, bytes.
-const LARGEST_FILE: u64 = 16 << 20;
+/// Largest file that is read, MiB.
+const LARGEST_FILE: u64 = 16;
 
 /// A scene and where it came from.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,18 +33,28 @@ pub struct Opened {
 /// # Errors
 /// If there is no such scene or file, it cannot be read, or it breaks a rule.
 pub fn open(name_or_path: impl AsRef<OsStr>) -> Result<Opened, Error> {
+    open_with_text(name_or_path).map(|(opened, _)| opened)
+}
+
+/// A scene as [`open`] opens it, and its text.
+///
+/// # Errors
+/// Those of [`open`].
+pub fn open_with_text(name_or_path: impl AsRef<OsStr>) -> Result<(Opened, String), Error> {
     let word = name_or_path.as_ref();
     let shown = printable::name(word);
     let is_path = word.as_encoded_bytes().ends_with(b".ron") || has_separator(word);
     if let Some(builtin) = word.to_str().and_then(builtin::find).filter(|_| !is_path) {
-        return Ok(Opened { key: builtin.name.to_owned(), path: None, scene: parse(builtin.text, builtin.name)? });
+        let opened = Opened { key: builtin.name.to_owned(), path: None, scene: parse(builtin.text, builtin.name)? };
+        return Ok((opened, builtin.text.to_owned()));
     }
     if !is_path && !Path::new(word).exists() {
         return Err(Error::whole(&shown, unknown(&word.to_string_lossy())));
     }
     let text = contents(Path::new(word), "a scene file").map_err(|message| Error::whole(&shown, message))?;
     let text = String::from_utf8(text).map_err(|error| not_text(&shown, &error))?;
-    Ok(Opened { key: key(word), path: Some(PathBuf::from(word)), scene: parse(&text, &shown)? })
+    let opened = Opened { key: key(word), path: Some(PathBuf::from(word)), scene: parse(&text, &shown)? };
+    Ok((opened, text))
 }
 
 fn has_separator(word: &OsStr) -> bool {
@@ -66,6 +76,14 @@ fn unknown(name: &str) -> String {
 /// # Errors
 /// What the file is instead, how large, or why it cannot be read.
 pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
+    contents_within(path, wanted, LARGEST_FILE)
+}
+
+/// The same of a file of `most` MiB at most.
+///
+/// # Errors
+/// What the file is instead, how large, or why it cannot be read.
+pub(crate) fn contents_within(path: &Path, wanted: &str, most: u64) -> Result<Vec<u8>, String> {
     let unreadable = |error: std::io::Error| format!("the file cannot be read: {}", printable::cause(&error));
     let about = fs::metadata(path).map_err(unreadable)?;
     // Asked before it is opened: opening a pipe would wait for a writer, and a device may have no end.
@@ -74,16 +92,16 @@ pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
         return Err(format!("it is {what}; allowed is {wanted}"));
     }
     let mut bytes = Vec::new();
-    fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE {
+    fs::File::open(path).and_then(|file| file.take((most << 20) + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > most << 20 {
         let size = about.len().max(bytes.len() as u64);
-        return Err(format!("the file of {size} bytes is refused; allowed are up to 16 MiB"));
+        return Err(format!("the file of {size} bytes is refused; allowed are up to {most} MiB"));
     }
     Ok(bytes)
 }
 
 /// The refusal of bytes that are not UTF-8, at the first of them.
-fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Error {
+pub(crate) fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Error {
     let (valid, wrong) = error.as_bytes().split_at(error.utf8_error().valid_up_to());
     let text = str::from_utf8(valid).unwrap_or_default();
     let place = position(text, text.len());

@@ -7,20 +7,25 @@
 //! | `stage` | what does not change during a run |
 //! | `run` | the run at the end of one frame |
 //! | `ghost` | where the exact run of the same scene is |
+//! | `kept` | which frames one can go back to |
 //! | `ticks`, `trend`, `bins` | impacts and other quantities over time |
 
 mod bins;
 mod ghost;
+mod kept;
 mod run;
 mod stage;
 mod ticks;
 mod trend;
 
 pub use ghost::Ghost;
+pub use kept::Kept;
 pub use run::Snapshot;
+pub(crate) use run::shows_trials;
 pub use stage::Stage;
 pub use ticks::Ticks;
 pub use trend::{Trade, Trend};
 
 pub use crate::audit::Alarm;
-pub use crate::physics::{Class, Contact, Kind, Probe, Tallies};
+pub use crate::physics::{Approach, Class, Contact, Kind, Probe, RestReason, Shape, Tallies};
+pub use crate::scene::ContactLaw;

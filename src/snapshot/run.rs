@@ -6,7 +6,13 @@ use glam::DVec3;
 
 use super::stage::Stage;
 use crate::audit::Alarm;
-use crate::physics::{Contact, Probe, Simulation, Stall, State, Tallies};
+use crate::physics::{Approach, Class, Contact, Probe, RestReason, Simulation, Stall, State, Tallies, slack};
+
+/// Most centres that the trial steps of a snapshot hold: half a megabyte.
+const TRIALS: usize = 20_000;
+
+/// Contacts of a frame, from the first on, of which a snapshot tells how they came about.
+const APPROACHES: usize = 1000;
 
 /// A run at the end of one frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +33,14 @@ pub struct Snapshot {
     pub initial_energy: f64,
     /// Every contact of the frame that ended here.
     pub contacts: Vec<Contact>,
+    /// Why each of them rests, by index; none if it does not, or where the method has no reason beyond the law.
+    pub rest_reasons: Vec<Option<RestReason>>,
+    /// How the bodies of each of the first contacts came together, by index, where the method follows single events.
+    pub approaches: Vec<Option<Approach>>,
     /// What its search for the collision time did, trial step by trial step; empty if it needed none.
     pub probes: Vec<Probe>,
+    /// Centres in each of these trial steps, m; empty if there are too many of them, or if the next frame is in progress.
+    pub trials: Vec<Vec<DVec3>>,
     /// Counted since t = 0.
     pub tallies: Tallies,
     /// Name of the method.
@@ -37,6 +49,8 @@ pub struct Snapshot {
     pub dt: f64,
     /// Intersection tolerance, dimensionless.
     pub tolerance: f64,
+    /// What `paper` accepts of overlap beyond the tolerance, dimensionless; none for methods that accept nothing beyond it.
+    pub slack: Option<f64>,
     /// Why the run cannot go on, if it cannot: a full sentence.
     pub stall: Option<String>,
     /// What the watch over the run has found wrong since its start.
@@ -57,18 +71,51 @@ impl Snapshot {
             energy: sim.energy(),
             initial_energy: sim.initial_energy(),
             contacts: sim.contacts().to_vec(),
+            rest_reasons: sim.contacts().iter().map(|contact| reason(sim, contact)).collect(),
+            approaches: sim.contacts().iter().take(APPROACHES).map(|contact| approach(sim, contact)).collect(),
             probes: sim.probes().to_vec(),
+            trials: trials(sim),
             tallies: sim.tallies(),
             method: settings.method.name(),
             dt: settings.dt,
             tolerance: settings.tolerance,
+            slack: slack(settings.method),
             stall: stall.map(|stall| stall.reason.clone()),
             alarm: Alarm::default(),
         }
+    }
+
+    /// The snapshot with its spheres where the frame's search tried them in this trial step, if that is known.
+    pub fn at_trial(&self, probe: usize) -> Option<Snapshot> {
+        let (trial, Probe { step, .. }) = (self.trials.get(probe)?, self.probes.get(probe)?);
+        Some(Snapshot { t: self.t - self.step + step, x: trial.clone(), ..self.clone() })
     }
 
     /// The hash of t, x and v ([`State::hash`]): equal hashes mean equal bits.
     pub fn hash(&self) -> u64 {
         State { t: self.t, x: self.x.clone(), v: self.v.clone() }.hash()
     }
+}
+
+fn reason(sim: &Simulation, contact: &Contact) -> Option<RestReason> {
+    if contact.class == Class::Rest { sim.rest_reason(contact.key()) } else { None }
+}
+
+/// Whether a snapshot of the run reads the inside of its last frame, where its search tried the spheres.
+pub(crate) fn shows_trials(sim: &Simulation) -> bool {
+    let probes = sim.probes().len();
+    probes > 0 && probes * sim.model().len() <= TRIALS
+}
+
+fn trials(sim: &Simulation) -> Vec<Vec<DVec3>> {
+    let probes = sim.probes();
+    if !shows_trials(sim) {
+        return Vec::new();
+    }
+    probes.iter().map(|probe| Some(sim.trial(probe.step)?.x)).collect::<Option<_>>().unwrap_or_default()
+}
+
+fn approach(sim: &Simulation, contact: &Contact) -> Option<Approach> {
+    let led_here = |approach: &&Approach| approach.key == contact.key() && approach.time == contact.time;
+    sim.approaches().iter().find(led_here).copied()
 }

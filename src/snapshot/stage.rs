@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::Bounds;
 use crate::printable;
-use crate::scene::Scene;
+use crate::scene::{ContactLaw, Scene};
 
 /// What does not change during a run; built once per scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,12 @@ pub struct Stage {
     pub colors: Vec<Option<[f64; 3]>>,
     /// Names, by sphere index.
     pub names: Vec<Option<String>>,
+    /// Gravity, m/s².
+    pub gravity: DVec3,
+    /// Constant forces beside gravity, N, by sphere index.
+    pub forces: Vec<DVec3>,
+    /// The contact law.
+    pub law: ContactLaw,
 }
 
 impl Stage {
@@ -45,6 +51,9 @@ impl Stage {
             masses: scene.spheres.iter().map(|sphere| sphere.mass).collect(),
             colors: scene.spheres.iter().map(|sphere| sphere.color).collect(),
             names: scene.spheres.iter().map(|sphere| sphere.name.clone()).collect(),
+            gravity: scene.gravity,
+            forces: scene.spheres.iter().map(|sphere| sphere.force).collect(),
+            law: scene.contact,
         }
     }
 }

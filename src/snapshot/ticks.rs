@@ -28,6 +28,14 @@ impl Ticks {
         let bin = bin(&mut self.impacts, &mut self.span, time, 0, u32::saturating_add);
         self.impacts[bin] = self.impacts[bin].saturating_add(1);
     }
+
+    /// Forgets the impacts after `time` (s), up to which there were so many in all.
+    pub fn cut(&mut self, time: f64, impacts: u64) {
+        let last = bin(&mut self.impacts, &mut self.span, time, 0, u32::saturating_add);
+        let before: u64 = self.impacts[..last].iter().map(|&impacts| u64::from(impacts)).sum();
+        self.impacts[last] = u32::try_from(impacts.saturating_sub(before)).unwrap_or(u32::MAX);
+        self.impacts[last + 1..].fill(0);
+    }
 }
 
 #[cfg(test)]
@@ -55,6 +63,15 @@ mod tests {
         assert_eq!((ticks.span, ticks.impacts.len()), (80.0, BINS));
         assert_eq!(total(&ticks), 6);
         assert_eq!(ticks.impacts[BINS / 4], 1, "20 s of 80 s");
+    }
+
+    #[test]
+    fn what_came_after_a_time_is_forgotten_to_the_impact() {
+        let mut ticks = Ticks::new(20.0);
+        let times = [1.0, 5.0, 5.001, 5.002, 5.003, 9.0];
+        times.into_iter().for_each(|time| ticks.add(time));
+        ticks.cut(5.0015, 3);
+        assert_eq!((total(&ticks), ticks.impacts[BINS / 4]), (3, 2));
     }
 
     #[test]

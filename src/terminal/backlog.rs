@@ -12,10 +12,13 @@ use super::{
     event::{Event, Post},
     reply::Reply,
 };
-use crate::app::{Input, Key};
+use crate::app::{Gesture, Input, Key, Mouse};
 
 /// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
+
+/// As many inputs wait, and the mouse's are left out.
+const MOST_MOTION: usize = MOST / 4;
 
 /// Most replies that wait; as many are never asked for.
 const MOST_REPLIES: usize = 64;
@@ -51,11 +54,17 @@ impl Entrance {
             if !self.shared.interrupted.swap(true, Ordering::AcqRel) {
                 self.post.send(Event::Interrupted);
             }
-        } else if self.shared.waiting.fetch_add(1, Ordering::AcqRel) < MOST {
+            return;
+        }
+        // Some of the places that the mouse has passed may be missed, and that is nothing to be told of; but a key must
+        // find room behind them.
+        let typed = !matches!(input, Input::Mouse(Mouse { gesture, .. }) if gesture != Gesture::Release);
+        let most = if typed { MOST } else { MOST_MOTION };
+        if self.shared.waiting.fetch_add(1, Ordering::AcqRel) < most {
             self.post.send(Event::Typed(input));
         } else {
             self.shared.waiting.fetch_sub(1, Ordering::AcqRel);
-            self.shared.left_out.fetch_add(1, Ordering::AcqRel);
+            self.shared.left_out.fetch_add(usize::from(typed), Ordering::AcqRel);
         }
     }
 
@@ -122,6 +131,20 @@ mod tests {
         entrance.take(Input::Key(Key::char('?')));
         assert!(matches!(events.try_recv(), Ok(Event::Typed(_))), "there is room again");
         assert_eq!(backlog.obeyed(), 0);
+    }
+
+    #[test]
+    fn a_million_places_of_the_mouse_leave_room_for_keys_and_are_not_told_of() {
+        let (sender, events) = mpsc::channel();
+        let (entrance, backlog) = backlog(Post(sender));
+        for column in 0..1_000_000 {
+            entrance.take(Input::Mouse(Mouse { gesture: Gesture::Drag, column: column as u16, row: 0 }));
+        }
+        entrance.take(Input::Mouse(Mouse { gesture: Gesture::Release, column: 0, row: 0 }));
+        entrance.take(Input::Key(Key::char('?')));
+        let waiting = events.try_iter().count();
+        assert_eq!(waiting, MOST_MOTION + 2);
+        assert_eq!((0..waiting).map(|_| backlog.obeyed()).sum::<usize>(), 0);
     }
 
     #[test]

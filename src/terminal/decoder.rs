@@ -8,8 +8,9 @@
 use std::time::Duration;
 
 use super::{
+    mouse,
     paste::{CTRL_C, Paste},
-    reply::{self, Reply},
+    reply::{self, LONGEST, Reply},
     sequence,
 };
 use crate::app::{Code, Input, Key};
@@ -43,6 +44,26 @@ pub(super) struct Decoder {
     pub(super) replies: Vec<Reply>,
 }
 
+/// A string under way.
+struct Payload {
+    /// What follows its escape: `P` for DCS, `]` for OSC, which a bell ends too.
+    kind: u8,
+    /// Its bytes, up to one more than an answer has.
+    bytes: Vec<u8>,
+}
+
+impl Payload {
+    fn push(&mut self, byte: u8) {
+        if self.bytes.len() <= LONGEST {
+            self.bytes.push(byte);
+        }
+    }
+
+    fn reply(&self) -> Option<Reply> {
+        (self.bytes.len() <= LONGEST).then(|| reply::string(self.kind, &self.bytes)).flatten()
+    }
+}
+
 /// What was begun.
 enum State {
     Ground,
@@ -60,12 +81,10 @@ enum State {
     Control(Vec<u8>),
     /// The characters of an old mouse report that are still to come.
     Mouse(u8),
-    /// APC, PM, SOS, DCS or, which a bell ends too, OSC.
-    String {
-        bell: bool,
-    },
+    /// APC, PM, SOS, DCS or OSC.
+    String(Payload),
     /// An escape in a string, which may end it.
-    StringEscape,
+    StringEscape(Payload),
     Paste(Paste),
 }
 
@@ -79,7 +98,7 @@ impl Decoder {
     pub(super) fn patience(&self) -> Option<Duration> {
         match (&self.state, self.late) {
             (State::Ground, _) => None,
-            (State::String { .. }, _) => Some(STRING_PAUSE),
+            (State::String(_), _) => Some(STRING_PAUSE),
             (State::Paste(paste), _) if !paste.is_interrupted() => Some(PASTE_PAUSE),
             (_, true) => Some(REST),
             (_, false) => Some(self.escape_time),
@@ -106,7 +125,7 @@ impl Decoder {
             // A bracket alone may be the key, but only what does not come shows it.
             State::Introducer(b'[') if !late => self.state = State::Introducer(b'['),
             State::Introducer(byte) => self.press(Key::char(byte.into())),
-            state @ (State::SingleShift | State::Control(_) | State::Mouse(_) | State::StringEscape) if !late => {
+            state @ (State::SingleShift | State::Control(_) | State::Mouse(_) | State::StringEscape(_)) if !late => {
                 self.state = state;
             }
             State::Paste(paste) if paste.is_interrupted() => self.press(Key::ctrl('c')),
@@ -145,9 +164,9 @@ impl Decoder {
             State::Mouse(left) if (0x80..0xc0).contains(&byte) => self.state = State::Mouse(left),
             State::Mouse(left) if left > 1 => self.state = State::Mouse(left - 1),
             State::Mouse(_) => {}
-            State::String { bell } => self.string(bell, byte),
-            State::StringEscape if byte == b'\\' => {}
-            State::StringEscape => self.escape(byte),
+            State::String(payload) => self.string(payload, byte),
+            State::StringEscape(payload) if byte == b'\\' => self.replies.extend(payload.reply()),
+            State::StringEscape(_) => self.escape(byte),
         }
     }
 
@@ -254,18 +273,25 @@ impl Decoder {
             b'@'..=b'~' if parameters.len() > PARAMETERS => {}
             b'@'..=b'~' => {
                 self.inputs.extend(sequence::key(&parameters, byte).map(Input::Key));
+                self.inputs.extend(mouse::mouse(&parameters, byte).map(Input::Mouse));
                 self.replies.extend(reply::reply(&parameters, byte));
             }
             _ => self.begin(byte, false),
         }
     }
 
-    fn string(&mut self, bell: bool, byte: u8) {
+    fn string(&mut self, mut payload: Payload, byte: u8) {
         self.state = match byte {
-            ESCAPE => State::StringEscape,
+            ESCAPE => State::StringEscape(payload),
             CANCEL | SUBSTITUTE => State::Ground,
-            BELL if bell => State::Ground,
-            _ => State::String { bell },
+            BELL if payload.kind == b']' => {
+                self.replies.extend(payload.reply());
+                State::Ground
+            }
+            _ => {
+                payload.push(byte);
+                State::String(payload)
+            }
         };
     }
 
@@ -286,7 +312,7 @@ fn introduced(byte: u8) -> State {
         b'[' => State::Control(Vec::new()),
         b'<'..=b'?' => State::Control(vec![byte]),
         b'O' => State::SingleShift,
-        _ => State::String { bell: byte == b']' },
+        _ => State::String(Payload { kind: byte, bytes: Vec::new() }),
     }
 }
 

@@ -2,6 +2,9 @@
 
 use crate::view::{Colors, Marker};
 
+/// Terminals that have no colours, by their name in TERM.
+const MONOCHROME: [&str; 6] = ["vt52", "vt100", "vt102", "vt220", "vt320", "vt420"];
+
 /// The variables that matter here, empty ones as if unset.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Environment {
@@ -38,14 +41,15 @@ impl Environment {
         Environment::read(|name| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned()))
     }
 
-    /// Braille, unless the locale names an encoding that has no such characters. An ssh session often arrives without
-    /// any locale: that is unknown, not C.
+    /// Braille, unless the locale names an encoding that has no such characters, or the terminal is the Linux console,
+    /// whose fonts have none. An ssh session often arrives without any locale: that is unknown, not C.
     pub(super) fn marker(&self, flag: Option<Marker>) -> Marker {
         let utf8 = |locale: &str| {
             let locale = locale.to_ascii_lowercase();
             locale.contains("utf-8") || locale.contains("utf8")
         };
         flag.unwrap_or(match &self.locale {
+            _ if self.is_console() => Marker::Ascii,
             Some(locale) if !utf8(locale) => Marker::Ascii,
             _ => Marker::Braille,
         })
@@ -59,8 +63,28 @@ impl Environment {
             Some("truecolor" | "24bit") => Colors::Rgb,
             _ if term.ends_with("-direct") => Colors::Rgb,
             _ if term.contains("256color") => Colors::Ansi256,
+            _ if MONOCHROME.contains(&term) || term.ends_with("-mono") || term.ends_with("-m") => Colors::Never,
             _ => Colors::Ansi16,
         })
+    }
+
+    /// Whether it may have more colours than it says: the name in TERM is often that of the least that is there.
+    pub(super) fn may_have_more_colors(&self) -> bool {
+        !self.multiplexed && matches!(self.colors(None), Colors::Ansi16 | Colors::Ansi256)
+    }
+
+    /// Whether nothing is said of the encoding.
+    pub(super) fn has_no_locale(&self) -> bool {
+        self.locale.is_none()
+    }
+
+    /// Whether it may be asked what it can: the Linux console prints questions that it does not know.
+    pub(super) fn may_be_asked(&self) -> bool {
+        !self.is_console()
+    }
+
+    fn is_console(&self) -> bool {
+        self.term.as_deref() == Some("linux")
     }
 
     /// Columns and rows of a terminal that reports these. Some, a serial line among them, report 0: that is unknown.
@@ -101,6 +125,7 @@ mod tests {
         assert_eq!(marker(&[("LANG", "de_DE.utf8"), ("LC_ALL", "C")]), Marker::Ascii);
         assert_eq!(marker(&[("LANG", "C"), ("LC_CTYPE", "en_US.UTF-8"), ("LC_ALL", "")]), Marker::Braille);
         assert_eq!(marker(&[("LANG", "ja_JP.eucJP")]), Marker::Ascii);
+        assert_eq!(marker(&[("LANG", "C.UTF-8"), ("TERM", "linux")]), Marker::Ascii, "what its fonts have");
         assert_eq!(with(&[("LANG", "C")]).marker(Some(Marker::Block)), Marker::Block, "the flag wins");
     }
 
@@ -112,6 +137,9 @@ mod tests {
         assert_eq!(colors(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")]), Colors::Rgb);
         assert_eq!(colors(&[("NO_COLOR", "1"), ("COLORTERM", "24bit")]), Colors::Never);
         assert_eq!(colors(&[("NO_COLOR", ""), ("COLORTERM", "24bit")]), Colors::Rgb, "empty is unset");
+        for (term, depth) in [("vt100", Colors::Never), ("xterm-mono", Colors::Never), ("linux", Colors::Ansi16)] {
+            assert_eq!(colors(&[("TERM", term)]), depth, "{term}");
+        }
         assert_eq!(with(&[("NO_COLOR", "1")]).colors(Some(Colors::Rgb)), Colors::Rgb);
     }
 

@@ -18,9 +18,10 @@ use super::{
     backlog::{Backlog, backlog},
     detect::Environment,
     event::{Event, Post},
-    input,
+    input, mouse,
     outcome::{Error, Options, Outcome},
     pacer::{Next, Pacer, Return},
+    questions::{Change, Questions},
     reply::{REQUEST, Reply},
     session::{Guard, Session},
     signals,
@@ -30,9 +31,6 @@ use crate::{
     app::{App, Effect, Input, Key, Setup},
     frame::Encoder,
 };
-
-/// Most pictures per second of a running run.
-const RATE: u32 = 30;
 
 /// Behind a program that answers for the terminal nothing tells how thin the line to it is: most pictures and bytes per
 /// second there, as many as 256 kbit/s carry.
@@ -61,14 +59,18 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     }
     let environment = Environment::ours();
     let escape_time = if environment.remote() { REMOTE } else { NEAR };
-    let (rate, budget) = if environment.multiplexed() { (MULTIPLEXED.0, Some(MULTIPLEXED.1)) } else { (RATE, None) };
-    let pacer = Pacer::new(rate, options.bandwidth.or(budget));
+    let (most, budget) =
+        if environment.multiplexed() { (MULTIPLEXED.0, Some(MULTIPLEXED.1)) } else { (u32::MAX, None) };
+    let pacer = Pacer::new(options.frame_rate.min(most), options.bandwidth.or(budget));
+    let questions = Questions::open(&environment, options.marker, options.color);
     let setup = Setup {
         opened: options.opened,
         settings: options.settings,
         paused: options.paused,
         marker: environment.marker(options.marker),
         colors: environment.colors(options.color),
+        inks: options.inks,
+        keymap: options.keymap,
     };
     let (sender, events) = mpsc::channel();
     let post = Post(sender);
@@ -81,7 +83,8 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
     let (entrance, backlog) = backlog(post);
     input::start(escape_time, entrance)?;
     let (encoder, clock) = (Encoder::new(), Instant::now());
-    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock }.run()
+    let (mouse, unasked) = ((false, 0), questions.bytes());
+    Driver { app, environment, guard, events, backlog, writer, pacer, encoder, clock, mouse, questions, unasked }.run()
 }
 
 /// The application and its terminal.
@@ -95,6 +98,11 @@ struct Driver {
     pacer: Pacer,
     encoder: Encoder,
     clock: Instant,
+    /// Whether the terminal reports the mouse since it was taken for that time.
+    mouse: (bool, u64),
+    questions: Questions,
+    /// The questions in bytes, until they are sent.
+    unasked: Vec<u8>,
 }
 
 /// Whether, and how, the loop ends.
@@ -195,17 +203,29 @@ impl Driver {
 
     fn replied(&mut self) {
         for (reply, at) in self.backlog.replies() {
-            match reply {
-                Reply::Attributes => {
-                    if let Some(Return { silence, skipped }) = self.pacer.replied(at.duration_since(self.clock)) {
-                        let seconds = silence.as_secs_f64();
-                        let pictures = if skipped == 1 { "frame was" } else { "frames were" };
-                        self.app.tell(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
-                        self.pacer.urgent(self.clock.elapsed());
-                    }
-                }
+            if let Some(change) = self.questions.hear(reply) {
+                self.adapt(change);
+            }
+            if reply == Reply::Attributes
+                && let Some(Return { silence, skipped }) = self.pacer.replied(at.duration_since(self.clock))
+            {
+                let seconds = silence.as_secs_f64();
+                let pictures = if skipped == 1 { "frame was" } else { "frames were" };
+                self.app.tell(format!("The line was silent for {seconds:.1} s; {skipped} {pictures} skipped."));
+                self.pacer.urgent(self.clock.elapsed());
             }
         }
+    }
+
+    /// Does what the terminal can do, once it has said so.
+    fn adapt(&mut self, change: Change) {
+        match change {
+            Change::Marker(marker) => self.app.adapt(|settings| settings.marker = marker),
+            Change::Colors(colors) => self.app.adapt(|settings| settings.colors = colors),
+            Change::Background(background) => self.app.adapt(|settings| settings.background = background),
+            Change::Brackets(known) => return self.encoder.bracket(known),
+        }
+        self.pacer.changed(self.clock.elapsed());
     }
 
     /// Leaves the screen, and waits for answers under way: the next reader of the terminal would take them for keys. Only
@@ -239,7 +259,7 @@ impl Driver {
 
     /// Takes note of replies of which nothing will be said.
     fn count_replies(&mut self) {
-        for (_, at) in self.backlog.replies() {
+        for (_, at) in self.backlog.replies().into_iter().filter(|(reply, _)| *reply == Reply::Attributes) {
             let _ = self.pacer.replied(at.duration_since(self.clock));
         }
     }
@@ -275,6 +295,18 @@ impl Driver {
         self.pacer.urgent(self.clock.elapsed());
     }
 
+    /// What has the terminal report the mouse or not, as the application wants; it was taken `takes` times.
+    fn mouse_mode(&mut self, takes: u64) -> &'static [u8] {
+        let reports = self.mouse.0 && self.mouse.1 == takes; // giving the terminal back turned them off
+        let wanted = self.app.wants_mouse();
+        self.mouse = (wanted, takes);
+        match (reports, wanted) {
+            (false, true) => mouse::ON,
+            (true, false) => mouse::OFF,
+            _ => b"",
+        }
+    }
+
     fn draw(&mut self) {
         self.pacer.drawn(self.clock.elapsed());
         let takes = self.guard.session().takes();
@@ -282,6 +314,7 @@ impl Driver {
         let mut buffer = Buffer::empty(Rect::new(0, 0, columns.min(LARGEST.0), rows.min(LARGEST.1)));
         self.app.draw(&mut buffer);
         let picture = self.encoder.encode(&buffer, self.app.cursor());
+        let picture = [&std::mem::take(&mut self.unasked), self.mouse_mode(takes), &picture].concat();
         if !picture.is_empty() {
             let now = self.clock.elapsed();
             let asks = self.pacer.sending(now, picture.len() + REQUEST.len());

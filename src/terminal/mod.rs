@@ -9,11 +9,11 @@
 //! | `outcome` | what to run, and how that can end |
 //! | `drive` | the loop: inputs, signals and news in, pictures out |
 //! | `event`, `backlog` | what the threads tell the one that draws; typed keys and replies that wait |
-//! | `input`, `decoder`, `sequence`, `paste`, `reply` | bytes from the terminal as keys, pasted text and replies |
+//! | `input`, `decoder`, `sequence`, `mouse`, `paste`, `reply` | bytes from the terminal as keys, mouse, pasted text and replies |
 //! | `session`, `signals` | the terminal's modes, put back whatever happens; signals as events |
 //! | `writer`, `pacer` | pictures to the terminal, and when the next is due |
 //! | `line`, `budget` | how many pictures may be under way, and how many bytes per second |
-//! | `detect` | what the environment says of colours and characters |
+//! | `detect`, `questions` | what the environment says of colours and characters, and what the terminal answers |
 
 mod backlog;
 mod budget;
@@ -23,9 +23,11 @@ mod drive;
 mod event;
 mod input;
 mod line;
+mod mouse;
 mod outcome;
 mod pacer;
 mod paste;
+mod questions;
 mod reply;
 mod sequence;
 mod session;

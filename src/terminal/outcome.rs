@@ -3,9 +3,10 @@
 use std::{fmt, io};
 
 use crate::{
+    app::Keymap,
     printable,
     scene::{Opened, Settings},
-    view::{Colors, Marker},
+    view::{Colors, Inks, Marker},
 };
 
 /// What to run, and how to show it.
@@ -25,6 +26,12 @@ pub struct Options {
     pub color: Option<Colors>,
     /// Most bytes per second to the terminal; `None`: as many as it takes.
     pub bandwidth: Option<u64>,
+    /// Most pictures per second of a running run, above 0.
+    pub frame_rate: u32,
+    /// The user's own colours.
+    pub inks: Inks,
+    /// Which key does what.
+    pub keymap: Keymap,
 }
 
 /// How the application ended, with the terminal as it was before.

@@ -40,7 +40,7 @@ const FAREWELL: Duration = Duration::from_millis(150);
 const HELLO: &[u8] = b"\x1b[?1049h\x1b[?2004h\x1b[?25l";
 
 /// Undoes what was asked of the terminal, last to first; before that it ends a synchronized update, should we leave in one.
-const GOODBYE: &[u8] = b"\x1b[?2026l\x1b[m\x1b[?25h\x1b[?2004l\x1b[?1049l";
+const GOODBYE: &[u8] = b"\x1b[?2026l\x1b[?1006l\x1b[?1002l\x1b[m\x1b[?25h\x1b[?2004l\x1b[?1049l";
 
 /// The screen, shared by every part that may have to give it back: drawing, signals, a panic anywhere.
 pub(super) struct Session {

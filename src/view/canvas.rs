@@ -34,6 +34,13 @@ pub(super) enum Layer {
     Selected,
 }
 
+impl Layer {
+    /// Whether it is of the run's own spheres, which hide each other.
+    fn is_body(self) -> bool {
+        matches!(self, Layer::Sphere | Layer::Contact | Layer::Selected)
+    }
+}
+
 /// Colour, attributes and layer of what is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Ink {
@@ -52,10 +59,26 @@ impl Ink {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
+    /// Dots of what no sphere hides: walls, arrows.
     mask: u8,
+    ink: Ink,
+    /// Dots of spheres, of which a nearer one hides those behind it.
+    bodies: u8,
+    body_ink: Ink,
     /// A character in place of the dots.
     sign: Option<char>,
-    ink: Ink,
+    sign_ink: Ink,
+}
+
+impl Cell {
+    /// The ink of what is seen: a sign's, else that of the higher layer among the dots.
+    fn seen(&self) -> Ink {
+        if self.sign.is_some() {
+            return self.sign_ink;
+        }
+        let bodies = if self.bodies == 0 { Ink::default() } else { self.body_ink };
+        if bodies.layer >= self.ink.layer { bodies } else { self.ink }
+    }
 }
 
 /// The dots of one view.
@@ -92,9 +115,25 @@ impl Canvas {
         }
         let (x, y) = (x as usize, y as usize);
         let cell = &mut self.cells[y / 4 * self.columns + x / 2];
-        cell.mask |= glyphs::bit(x % 2, y % 4);
-        if ink.layer >= cell.ink.layer {
-            cell.ink = ink;
+        let bit = glyphs::bit(x % 2, y % 4);
+        let (mask, kept) = match ink.layer.is_body() {
+            true => (&mut cell.bodies, &mut cell.body_ink),
+            false => (&mut cell.mask, &mut cell.ink),
+        };
+        if *mask == 0 || ink.layer >= kept.layer {
+            *kept = ink;
+        }
+        *mask |= bit;
+    }
+
+    /// Takes away the dots of spheres in a row from `from` to before `to`: what is nearer hides them.
+    pub(super) fn hide(&mut self, from: i32, to: i32, y: i32) {
+        if y < 0 || y >= self.height {
+            return;
+        }
+        for x in from.max(0)..to.min(self.width) {
+            let (x, y) = (x as usize, y as usize);
+            self.cells[y / 4 * self.columns + x / 2].bodies &= !glyphs::bit(x % 2, y % 4);
         }
     }
 
@@ -104,8 +143,8 @@ impl Canvas {
             return;
         }
         let cell = &mut self.cells[y as usize / 4 * self.columns + x as usize / 2];
-        if cell.sign.is_none() || ink.layer >= cell.ink.layer {
-            (cell.sign, cell.ink) = (Some(sign), ink);
+        if cell.sign.is_none() || ink.layer >= cell.sign_ink.layer {
+            (cell.sign, cell.sign_ink) = (Some(sign), ink);
         }
     }
 
@@ -120,19 +159,22 @@ impl Canvas {
     #[cfg(test)]
     pub(super) fn has(&self, x: i32, y: i32) -> bool {
         let (x, y) = (x as usize, y as usize);
-        self.cells[y / 4 * self.columns + x / 2].mask & glyphs::bit(x % 2, y % 4) != 0
+        let cell = &self.cells[y / 4 * self.columns + x / 2];
+        (cell.mask | cell.bodies) & glyphs::bit(x % 2, y % 4) != 0
     }
 
     /// Writes every cell with something in it to the sheet.
     pub(super) fn paint(&self, area: Rect, sheet: &mut Sheet) {
         for (i, cell) in self.cells.iter().enumerate() {
-            if cell.mask == 0 && cell.sign.is_none() {
+            let mask = cell.mask | cell.bodies;
+            if mask == 0 && cell.sign.is_none() {
                 continue;
             }
             let (column, row) = (i % self.columns, i / self.columns);
             let target = &mut sheet.buffer[(area.x + column as u16, area.y + row as u16)];
-            target.set_char(cell.sign.unwrap_or_else(|| glyphs::dots(sheet.marker, cell.mask)));
-            (target.fg, target.modifier) = (cell.ink.color, cell.ink.modifier);
+            target.set_char(cell.sign.unwrap_or_else(|| glyphs::dots(sheet.marker, mask)));
+            let ink = cell.seen();
+            (target.fg, target.modifier) = (ink.color, ink.modifier);
         }
     }
 }

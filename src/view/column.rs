@@ -31,6 +31,18 @@ impl<'a, 'b> Column<'a, 'b> {
         self.sheet
     }
 
+    /// The sheet, to be drawn on where [`Column::take`] says.
+    pub(super) fn sheet_mut(&mut self) -> &mut Sheet<'b> {
+        self.sheet
+    }
+
+    /// The next `rows` rows, or as many as are left, for the caller to fill.
+    pub(super) fn take(&mut self, rows: u16) -> Rect {
+        let (taken, rest) = split_top(self.rest, rows);
+        self.rest = rest;
+        taken
+    }
+
     /// A row in one style.
     pub(super) fn row(&mut self, text: &str, style: Style) {
         self.pieces(&[(text, style)]);

@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use super::{
-    help, inspector,
+    card, help, inspector,
     layout::{self, Plan},
     projection, prompt, scenes,
     screen::{Popup, Screen, ViewSettings},
@@ -23,7 +23,7 @@ pub fn draw(screen: &Screen, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(*buffer.area());
     let mut sheet = Sheet::new(buffer, screen.view_settings);
     sheet.clear(area);
-    match Plan::new(area, screen.view_settings) {
+    match Plan::new(area, screen.view_settings, extent(&screen.snapshot.stage)) {
         Plan::TooSmall => {
             let plain = sheet.palette.plain();
             sheet.put(area, &format!("too small {}x{}", area.width, area.height), plain);
@@ -40,11 +40,15 @@ pub fn draw(screen: &Screen, area: Rect, buffer: &mut Buffer) {
 fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
     status::draw(screen, plan.status, sheet);
     if !draw_popup(screen, plan.body, sheet) {
+        let sizes = layout::sizes(&plan.panes);
         for pane in &plan.panes {
-            stage::draw(screen, pane, sheet);
+            stage::draw(screen, pane, sizes, sheet);
         }
         if let Some(area) = plan.inspector {
-            inspector::draw(screen, area, sheet);
+            match screen.view_settings.card {
+                Some(card) => card::draw(screen, card, area, sheet),
+                None => inspector::draw(screen, area, sheet),
+            }
         }
         if let (Some(area), Some(comparison)) = (plan.trade, &screen.comparison) {
             trade::draw(screen, comparison, area, sheet);
@@ -85,7 +89,7 @@ fn draw_popup(screen: &Screen, body: Rect, sheet: &mut Sheet) -> bool {
 pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
     let (body, last) = popup_places(screen.view_settings, area)?;
     match screen.popup {
-        Popup::Prompt { text } => prompt::cursor(text, last),
+        Popup::Prompt { text, cursor, .. } => prompt::cursor(text, cursor, last),
         Popup::Scenes { filter, filtering: true, .. } => scenes::cursor(filter, body),
         _ => None,
     }
@@ -98,7 +102,7 @@ pub fn help_scroll_limit(rows: &[(&str, &str)], settings: &ViewSettings, area: R
 
 /// (where lists go, where the prompt goes), if there is room for any.
 fn popup_places(settings: &ViewSettings, area: Rect) -> Option<(Rect, Rect)> {
-    match Plan::new(area, settings) {
+    match Plan::new(area, settings, DVec3::ZERO) {
         Plan::TooSmall => None,
         Plan::Numbers { area } => Some((area, layout::split_bottom(area, 1).1)),
         Plan::Full(full) => Some((full.body, full.last)),
@@ -109,12 +113,20 @@ fn popup_places(settings: &ViewSettings, area: Rect) -> Option<(Rect, Rect)> {
 ///
 /// A pan step is a fraction of it. Where no view is drawn, the extent of the scene's own view box over the zoom.
 pub fn visible_span(settings: &ViewSettings, stage: &Stage, area: Rect) -> DVec3 {
-    let pane = match Plan::new(area, settings) {
-        Plan::Full(full) => full.panes.first().map(|pane| pane.canvas),
-        _ => None,
+    let panes = match Plan::new(area, settings, extent(stage)) {
+        Plan::Full(full) => full.panes,
+        _ => Vec::new(),
     };
-    match pane {
-        Some(canvas) => projection::Camera::new(settings, stage, None, canvas).span(canvas),
-        None => (stage.view.max - stage.view.min) / projection::sane_zoom(settings.zoom),
+    if panes.is_empty() {
+        return extent(stage) / projection::sane_zoom(settings.zoom);
     }
+    let sizes = layout::sizes(&panes);
+    let camera = projection::Camera::new(settings, stage, None, sizes);
+    let (side, top) = (camera.span(sizes.side), camera.span(sizes.top));
+    DVec3::new(side.x, side.y, top.z)
+}
+
+/// The extent of the scene's own view box, m.
+pub(super) fn extent(stage: &Stage) -> DVec3 {
+    stage.view.max - stage.view.min
 }

@@ -19,8 +19,8 @@ pub(super) struct Glyphs {
     pub(super) top_axes: &'static str,
     /// The scale bar: whole cell, half cell.
     pub(super) bar: [&'static str; 2],
-    /// Timeline: past, future, cursor.
-    pub(super) track: [char; 3],
+    /// Timeline: frames that are kept, those that are not any more, the future, cursor.
+    pub(super) track: [char; 4],
     /// Timeline: impacts in a column, from few to many.
     pub(super) levels: &'static [char],
     /// Marks of a contact: impact, rest, leaving.
@@ -39,7 +39,7 @@ const UNICODE: Glyphs = Glyphs {
     side_axes: "x→ y↑",
     top_axes: "x→ z↓",
     bar: ["━", "╸"],
-    track: ['─', '┈', '┃'],
+    track: ['─', '╌', '┈', '┃'],
     levels: &['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'],
     contact: ['×', '•', '·'],
     more: ["↑", "↓"],
@@ -54,7 +54,7 @@ const ASCII: Glyphs = Glyphs {
     side_axes: "x right, y up",
     top_axes: "x right, z down",
     bar: ["=", ""],
-    track: ['-', ' ', '|'],
+    track: ['-', '~', ' ', '|'],
     levels: &['.', ':', '+', '*', '#'],
     contact: ['x', '=', '.'],
     more: ["^", "v"],

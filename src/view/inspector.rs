@@ -32,7 +32,7 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
         draw_run(screen.snapshot, &mut column);
     }
     draw_contacts(screen.snapshot, &mut column);
-    probes::draw(&screen.snapshot.probes, &mut column);
+    probes::draw(&probes::Search::new(screen.snapshot, None), &mut column);
 }
 
 /// The selected sphere: position, velocity, speed, kinetic energy, mass, radius.

@@ -1,8 +1,17 @@
 //! What goes where: pure arithmetic on rectangles.
 
+use glam::DVec3;
 use ratatui::layout::Rect;
 
+use super::projection::{Sizes, fit};
 use super::screen::{ViewSettings, Views};
+use super::side::Side;
+
+/// The views stand one over the other where that draws the scene larger by this factor.
+const LARGER: f64 = 1.15;
+
+/// Rows that each of two views over each other has at least.
+const FEWEST: u16 = 3;
 
 /// Columns from which on a third column holds the inspector.
 const WIDE: u16 = 110;
@@ -51,18 +60,9 @@ pub(super) struct Pane {
     pub(super) canvas: Rect,
 }
 
-/// The two projections.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    /// x right, y up.
-    Side,
-    /// x right, z down the screen.
-    Top,
-}
-
 impl Plan {
-    /// The plan for an area.
-    pub(super) fn new(area: Rect, settings: &ViewSettings) -> Plan {
+    /// The plan for an area and a scene whose view box has this extent, m.
+    pub(super) fn new(area: Rect, settings: &ViewSettings, extent: DVec3) -> Plan {
         if area.width < 12 || area.height < 3 {
             return Plan::TooSmall;
         }
@@ -75,7 +75,7 @@ impl Plan {
         let (views, inspector) = split_inspector(body, area, settings);
         let (views, trade) = split_bottom(views, if settings.ghost { trade_rows(views.height) } else { 0 });
         let trade = (!trade.is_empty()).then_some(trade);
-        let panes = panes(views, area, settings, inspector.is_some());
+        let panes = panes(views, area, settings, (inspector.is_some(), extent));
         let timeline = (timeline.height > 0).then_some(timeline);
         Plan::Full(Full { status, body, panes, inspector, trade, timeline, last })
     }
@@ -90,15 +90,20 @@ fn trade_rows(views: u16) -> u16 {
     }
 }
 
+/// Whether a screen of that size shows the inspector, or a card in its place.
+pub fn inspector_is_shown(settings: &ViewSettings, area: Rect) -> bool {
+    settings.card.is_some() || settings.inspector.unwrap_or(area.width >= WIDE)
+}
+
 /// The views' part of the body and the inspector's: a third column if wide, else in the side view's place, if at all.
 fn split_inspector(body: Rect, area: Rect, settings: &ViewSettings) -> (Rect, Option<Rect>) {
+    if !inspector_is_shown(settings, area) {
+        return (body, None);
+    }
     if area.width >= WIDE {
         let width = (area.width / 4).clamp(30, 42);
         let (views, inspector) = split_right(body, width);
         return (views, Some(inspector));
-    }
-    if !settings.inspector {
-        return (body, None);
     }
     if area.width < 60 || area.height < 16 {
         return (Rect { width: 0, ..body }, Some(body));
@@ -107,23 +112,50 @@ fn split_inspector(body: Rect, area: Rect, settings: &ViewSettings) -> (Rect, Op
     (views, Some(inspector))
 }
 
-/// The panes: two of equal width side by side where both are wanted and fit.
-fn panes(views: Rect, area: Rect, settings: &ViewSettings, inspected: bool) -> Vec<Pane> {
+/// The panes: two of equal width where both are wanted and fit, side by side or one over the other, whichever draws the
+/// scene of this extent (m) larger.
+fn panes(views: Rect, area: Rect, settings: &ViewSettings, (inspected, extent): (bool, DVec3)) -> Vec<Pane> {
     let narrow = area.width < 60 || area.height < 16;
     let replaced = inspected && area.width < WIDE;
     match settings.views {
         _ if views.is_empty() => Vec::new(),
         Views::Side => vec![pane(Side::Side, views)],
         Views::Top => vec![pane(Side::Top, views)],
+        // A card explains the contact in the view that shows slopes.
+        Views::Both if replaced && settings.card.is_some() => vec![pane(Side::Side, views)],
         Views::Both if replaced => vec![pane(Side::Top, views)],
         Views::Both if narrow => vec![pane(Side::Side, views)],
         Views::Both => {
-            // An odd column is left free in the middle: equal widths keep one x in one column of both.
-            let (left, rest) = split_left(views, views.width / 2);
-            let (_, right) = split_right(rest, views.width / 2);
-            vec![pane(Side::Side, left), pane(Side::Top, right)]
+            let (beside, over) = (beside(views), over(views, extent));
+            let scale = |panes: &[Pane; 2]| fit(extent, sizes(panes));
+            let stacked = scale(&over) > LARGER * scale(&beside);
+            Vec::from(if stacked { over } else { beside })
         }
     }
+}
+
+/// Side by side. An odd column is left free in the middle: equal widths keep one x in one column of both.
+fn beside(views: Rect) -> [Pane; 2] {
+    let (left, rest) = split_left(views, views.width / 2);
+    let (_, right) = split_right(rest, views.width / 2);
+    [pane(Side::Side, left), pane(Side::Top, right)]
+}
+
+/// The side view over the top-down view, each as high as the scene's extent (m) in it asks for.
+fn over(views: Rect, extent: DVec3) -> [Pane; 2] {
+    let rows = views.height.saturating_sub(2);
+    let share = extent.y / (extent.y + extent.z);
+    let side = if share.is_finite() { (f64::from(rows) * share).round() as u16 } else { rows / 2 };
+    let side = side.clamp(FEWEST.min(rows / 2), rows - FEWEST.min(rows / 2));
+    let (upper, lower) = split_top(views, side + 1);
+    [pane(Side::Side, upper), pane(Side::Top, lower)]
+}
+
+/// The sizes of both views; of one alone, as if the other had as many cells.
+pub(super) fn sizes(panes: &[Pane]) -> Sizes {
+    let of = |side: Side| panes.iter().find(|pane| pane.side == side).or(panes.first());
+    let size = |side: Side| of(side).map_or_else(Rect::default, |pane| pane.canvas);
+    Sizes { side: size(Side::Side), top: size(Side::Top) }
 }
 
 /// A pane with its label on top.

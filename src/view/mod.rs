@@ -10,22 +10,28 @@
 //! | `screen` | everything that a frame shows |
 //! | `draw` | one frame, each part in its place |
 //! | `layout` | what goes where, by the size of the screen |
-//! | `sheet`, `glyphs`, `palette` | text in cells; its signs and its colours |
+//! | `sheet`, `glyphs`, `palette`, `ink` | text in cells; its signs and its colours; the user's own colours |
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
+//! | `side` | which way a view looks |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
+//! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
+//! | `card` | one contact taken apart, in the inspector's place |
 //! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes` | a strip or popup each |
 
 mod canvas;
+mod card;
 mod column;
 mod draw;
 mod glyphs;
 mod help;
+mod ink;
 mod inspector;
 mod layout;
 mod overlays;
 mod palette;
 mod pane;
+mod pointing;
 mod probes;
 mod projection;
 mod prompt;
@@ -33,10 +39,15 @@ mod scenes;
 mod screen;
 mod shapes;
 mod sheet;
+mod side;
 mod stage;
 mod status;
 mod timeline;
 mod trade;
 
+pub use card::order;
 pub use draw::{cursor, draw, help_scroll_limit, visible_span};
-pub use screen::{Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};
+pub use ink::{Background, Ink, Inks, MOST_TURNS};
+pub use layout::inspector_is_shown;
+pub use pointing::{Aim, Target, time_at, timeline_row};
+pub use screen::{CardView, Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};

@@ -4,15 +4,19 @@ use glam::DVec3;
 
 use super::{
     canvas::{Ink, Layer},
+    card,
     pane::View,
     shapes,
     sheet::Sheet,
 };
 use crate::format;
-use crate::snapshot::Class;
+use crate::snapshot::{Class, Contact, Kind};
 
 /// Length of a contact normal seen from the side, dots: three cells high, whatever the zoom.
 const NORMAL: f64 = 12.0;
+
+/// Distance of a wall's number from the point of its contact, dots: a cell and a half, on the side away from the sphere.
+const BEHIND: f64 = 6.0;
 
 /// Length of an arrow head's barbs, dots; shorter arrows have none.
 const BARB: f64 = 3.0;
@@ -34,6 +38,7 @@ pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
     if settings.overlays.contacts {
         draw_contacts(view, sheet);
     }
+    draw_chosen(view, sheet);
     let spheres = if settings.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
     for sphere in spheres.filter(|sphere| settings.selected != Some(*sphere)).chain(settings.selected) {
         draw_number(view, sphere, sheet);
@@ -63,12 +68,39 @@ fn draw_velocities(view: &mut View, sheet: &Sheet) {
     }
 }
 
+/// The normal of every contact, from the far side of each sphere that it pushes: under the sphere's own dots it would vanish.
 fn draw_normals(view: &mut View, sheet: &Sheet) {
     let ink = Ink::new(Layer::Arrow, sheet.palette.normal());
     for contact in &view.screen.snapshot.contacts {
-        let tip = contact.point + contact.normal * (NORMAL / view.camera.scale);
-        let (foot, tip) = (view.project(contact.point), view.project(tip));
-        draw_arrow(view, foot, tip, ink);
+        draw_pushes(view, contact, ink);
+    }
+}
+
+/// Arrows along a contact's normal, outside the spheres that it pushes.
+fn draw_pushes(view: &mut View, contact: &Contact, ink: Ink) {
+    let snapshot = view.screen.snapshot;
+    let other = (contact.kind == Kind::Pair).then_some((contact.b, -contact.normal));
+    for (sphere, normal) in [(contact.a, contact.normal)].into_iter().chain(other) {
+        let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { continue };
+        let rim = *x + normal * *radius;
+        let (tail, tip) = (view.project(rim), view.project(rim + normal * (NORMAL / view.camera.scale)));
+        draw_arrow(view, tail, tip, ink);
+    }
+}
+
+/// The contact whose card is open: its normal, and the wall's number beside its point.
+fn draw_chosen(view: &mut View, sheet: &Sheet) {
+    let chosen = view.screen.view_settings.card.and_then(|card| card::chosen(view.screen, card));
+    let Some(contact) = chosen.map(|index| view.screen.snapshot.contacts[index]) else { return };
+    let style = sheet.palette.alarm().patch(sheet.palette.strong());
+    draw_pushes(view, &contact, Ink::new(Layer::Selected, style));
+    let behind = contact.point - contact.normal * (BEHIND / view.camera.scale);
+    if contact.kind == Kind::Wall && on_canvas(view, contact.point).is_some() {
+        let text = format!("w{}", contact.b);
+        let (x, y) = view.project(behind);
+        let (right, bottom) = (view.canvas.width() - 2 * text.len() as i32, view.canvas.height() - 1);
+        let at = (x.round().clamp(0.0, f64::from(right.max(0))), y.round().clamp(0.0, f64::from(bottom)));
+        view.canvas.text(at.0 as i32, at.1 as i32, &text, Ink::new(Layer::Selected, style));
     }
 }
 

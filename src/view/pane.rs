@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ratatui::layout::Rect;
 
-use super::{canvas::Canvas, layout::Side, projection::Camera, screen::Screen, shapes};
+use super::{canvas::Canvas, projection::Camera, screen::Screen, shapes, side::Side};
 
 /// A view and what is needed to draw on it.
 pub(super) struct View<'a> {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ratatui::layout::Rect;
 
-use super::{layout::Side, screen::ViewSettings};
+use super::{screen::ViewSettings, side::Side};
 use crate::snapshot::Stage;
 
 /// Dots kept free around the scene's view box at zoom 1, so that its walls are seen and the views do not touch.
@@ -24,13 +24,13 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// The camera for views of the size of `canvas` (cells). `followed`: where the followed sphere is, m.
-    pub(super) fn new(settings: &ViewSettings, stage: &Stage, followed: Option<DVec3>, canvas: Rect) -> Camera {
+    /// The camera for views of these sizes (cells). `followed`: where the followed sphere is, m.
+    pub(super) fn new(settings: &ViewSettings, stage: &Stage, followed: Option<DVec3>, sizes: Sizes) -> Camera {
         let (min, max) = (stage.view.min, stage.view.max);
         let home = min + (max - min) * 0.5 + settings.pan;
         let center = followed.filter(|x| x.is_finite()).unwrap_or(home);
         let center = if center.is_finite() { center } else { DVec3::ZERO };
-        Camera { center, scale: fit(max - min, canvas) * sane_zoom(settings.zoom) }
+        Camera { center, scale: fit(max - min, sizes) * sane_zoom(settings.zoom) }
     }
 
     /// Where a world point falls in a view of the size of `canvas`, in dots: dot (i, j) has its centre at (i, j).
@@ -61,12 +61,20 @@ pub(super) fn sane_zoom(zoom: f64) -> f64 {
     if zoom.is_finite() && zoom > 0.0 { zoom.clamp(1e-9, 1e12) } else { 1.0 }
 }
 
-/// Dots per metre at zoom 1: the largest scale at which the box fits both views, whether or not both are shown, so
-/// that switching views does not change it.
-fn fit(extent: DVec3, canvas: Rect) -> f64 {
-    let (width, height) = dots(canvas);
-    let across = (width - 1.0 - 2.0 * MARGIN).max(1.0);
-    let down = (height - 1.0 - 2.0 * MARGIN).max(1.0);
-    let scale = (across / extent.x).min(down / extent.y).min(down / extent.z);
+/// The sizes of the two views, cells: of equal width, so that they share the x axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sizes {
+    /// The side view, x and y.
+    pub(super) side: Rect,
+    /// The top-down view, x and z.
+    pub(super) top: Rect,
+}
+
+/// Dots per metre at zoom 1: the largest scale at which the box of this extent (m) fits both views, whether or not both are
+/// shown, so that switching views does not change it.
+pub(super) fn fit(extent: DVec3, sizes: Sizes) -> f64 {
+    let inner = |size: f64| (size - 1.0 - 2.0 * MARGIN).max(1.0);
+    let ((width, side), (_, top)) = (dots(sizes.side), dots(sizes.top));
+    let scale = (inner(width) / extent.x).min(inner(side) / extent.y).min(inner(top) / extent.z);
     if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
 }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::snapshot::{Ghost, Snapshot, Ticks, Trade};
+use super::ink::{Background, Inks};
+use crate::snapshot::{Ghost, Kept, Snapshot, Ticks, Trade};
 
 /// Everything one frame shows.
 #[derive(Debug, Clone, Copy)]
@@ -13,6 +14,8 @@ pub struct Screen<'a> {
     pub pace: Pace,
     /// Collisions so far.
     pub ticks: &'a Ticks,
+    /// Which frames one can go to.
+    pub kept: Kept,
     /// The exact run beside this one, where it was asked for.
     pub comparison: Option<Comparison<'a>>,
     /// What the user chose to look at, and how.
@@ -52,6 +55,8 @@ pub enum Mode {
     Run,
     /// Paused at the newest frame.
     Pause,
+    /// Paused at an earlier frame, or on the way there.
+    Back,
     /// The run cannot go on.
     Stalled,
 }
@@ -71,14 +76,20 @@ pub struct ViewSettings {
     pub selected: Option<usize>,
     /// Which overlays are drawn.
     pub overlays: Overlays,
-    /// Whether the inspector was asked for; wide screens always show it.
-    pub inspector: bool,
+    /// Whether the inspector is shown; none: on wide screens.
+    pub inspector: Option<bool>,
+    /// The card of a contact in the inspector's place, if it is open.
+    pub card: Option<CardView>,
     /// Whether the exact run is shown beside this one.
     pub ghost: bool,
     /// Dots or characters.
     pub marker: Marker,
     /// Depth of colour.
     pub colors: Colors,
+    /// What is behind the text.
+    pub background: Background,
+    /// The user's own colours.
+    pub inks: Inks,
 }
 
 impl Default for ViewSettings {
@@ -91,12 +102,26 @@ impl Default for ViewSettings {
             follow: false,
             selected: None,
             overlays: Overlays { contacts: true, ..Overlays::default() },
-            inspector: false,
+            inspector: None,
+            card: None,
             ghost: false,
             marker: Marker::Braille,
             colors: Colors::Ansi16,
+            background: Background::default(),
+            inks: Inks::default(),
         }
     }
+}
+
+/// Which contact's card is open, and how far it is scrolled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CardView {
+    /// The contact: its place among the frame's contacts, the selected sphere's first.
+    pub cursor: usize,
+    /// Rows scrolled down.
+    pub scroll: usize,
+    /// The trial step of the frame's search that the views show, if they show one.
+    pub probe: Option<usize>,
 }
 
 /// Which projections are drawn.
@@ -174,5 +199,9 @@ pub enum Popup<'a> {
     Prompt {
         /// Text after the colon.
         text: &'a str,
+        /// The byte of it before which the cursor is.
+        cursor: usize,
+        /// What its last word may go on as.
+        offers: &'a str,
     },
 }

@@ -102,6 +102,18 @@ pub(super) fn disc(canvas: &mut Canvas, c: Dots, r: f64, every: i32, ink: Ink) {
     }
 }
 
+/// Takes away the dots of other spheres within the circle of radius `r` dots about `c`, its rim left out.
+pub(super) fn hide(canvas: &mut Canvas, c: Dots, r: f64) {
+    if !meets(canvas, c, r) {
+        return;
+    }
+    for y in range(c.1 - r, c.1 + r, canvas.height()) {
+        let half = half_chord(r, f64::from(y) - c.1) - 0.5;
+        let row = range(c.0 - half, c.0 + half, canvas.width());
+        canvas.hide(row.start, row.end, y);
+    }
+}
+
 /// The horizontal chord through the centre of the circle of radius `r` dots about `c`.
 pub(super) fn chord(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
     if meets(canvas, c, r) {

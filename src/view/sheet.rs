@@ -30,12 +30,7 @@ pub(super) struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     /// A sheet over the buffer.
     pub(super) fn new(buffer: &'a mut Buffer, settings: &ViewSettings) -> Sheet<'a> {
-        Sheet {
-            buffer,
-            palette: Palette::new(settings.colors),
-            marker: settings.marker,
-            glyphs: glyphs(settings.marker),
-        }
+        Sheet { buffer, palette: Palette::new(settings), marker: settings.marker, glyphs: glyphs(settings.marker) }
     }
 
     /// Blanks an area.
@@ -77,7 +72,14 @@ impl<'a> Sheet<'a> {
         if self.marker != Marker::Ascii || text.is_ascii() {
             return Cow::Borrowed(text);
         }
-        Cow::Owned(text.chars().map(ascii).collect())
+        Cow::Owned(text.chars().fold(String::with_capacity(text.len()), |mut plain, c| {
+            match c {
+                '≤' => plain.push_str("<="),
+                '≥' => plain.push_str(">="),
+                c => plain.push(ascii(c)),
+            }
+            plain
+        }))
     }
 
     /// Text cut to so many columns, an ellipsis at the end if it was cut.
@@ -103,6 +105,12 @@ fn ascii(character: char) -> char {
         '×' => 'x',
         '÷' => '/',
         '–' | '−' => '-',
+        'τ' => 't',
+        '²' => '2',
+        '³' => '3',
+        '⁴' => '4',
+        '₁' => '1',
+        '₂' => '2',
         '…' | '·' => '.',
         _ => '?',
     }

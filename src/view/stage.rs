@@ -4,13 +4,14 @@ use ratatui::layout::Rect;
 
 use super::{
     canvas::{Canvas, Ink, Layer},
-    layout::{Pane, Side},
+    layout::Pane,
     overlays,
     pane::View,
-    projection::{Camera, sane_zoom},
+    projection::{Camera, Sizes, sane_zoom},
     screen::Screen,
     shapes,
     sheet::{self, Sheet},
+    side::Side,
 };
 use crate::format;
 use crate::snapshot::{Class, Kind, Snapshot};
@@ -24,14 +25,17 @@ const FILLED: f64 = 6.0;
 /// Rows from one line of the hatching to the next, dots: one line a cell.
 const HATCH: i32 = 4;
 
+/// A sphere of at least so many dots' radius hides what is behind it: a smaller one would be a hole.
+const HIDES: f64 = 1.5;
+
 /// Distance of the selected sphere's second ring from its first, dots.
 const HALO: f64 = 2.0;
 
-/// Draws one view with its label.
-pub(super) fn draw(screen: &Screen, pane: &Pane, sheet: &mut Sheet) {
+/// Draws one view with its label; `sizes`: those of both views, which have one scale.
+pub(super) fn draw(screen: &Screen, pane: &Pane, sizes: Sizes, sheet: &mut Sheet) {
     let (snapshot, settings) = (screen.snapshot, screen.view_settings);
     let followed = settings.selected.filter(|_| settings.follow).and_then(|i| snapshot.x.get(i).copied());
-    let camera = Camera::new(settings, &snapshot.stage, followed, pane.canvas);
+    let camera = Camera::new(settings, &snapshot.stage, followed, sizes);
     let canvas = Canvas::new(pane.canvas);
     let mut view = View { side: pane.side, area: pane.canvas, camera, canvas, screen };
     draw_walls(&mut view, sheet);
@@ -96,11 +100,15 @@ fn states(snapshot: &Snapshot) -> Vec<State> {
     states
 }
 
-/// Every sphere as a circle in true proportion; its shape tells what it does.
+/// Every sphere as a circle in true proportion; its shape tells what it does. A nearer one hides what is behind it; the
+/// selected one is never hidden.
 fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let stage = &snapshot.stage;
-    for (i, ((x, radius), state)) in snapshot.x.iter().zip(&stage.radii).zip(states).enumerate() {
+    for i in far_to_near(view) {
+        let (Some(x), Some(radius), Some(state)) = (snapshot.x.get(i), stage.radii.get(i), states.get(i)) else {
+            continue;
+        };
         let selected = view.screen.view_settings.selected == Some(i);
         let layer = match state {
             _ if selected => Layer::Selected,
@@ -112,12 +120,31 @@ fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
             _ => sheet.palette.sphere(i, stage.colors.get(i).copied().flatten()),
         };
         let (center, r) = (view.project(*x), radius * view.camera.scale);
+        if r >= HIDES {
+            shapes::hide(&mut view.canvas, center, r);
+        }
         draw_sphere(&mut view.canvas, center, r, *state, Ink::new(layer, style));
         if selected {
             let ink = Ink::new(layer, sheet.palette.strong());
             shapes::circle(&mut view.canvas, center, r.max(TINY) + HALO, ink);
         }
     }
+}
+
+/// The spheres from the farthest to the nearest as seen in this view, the selected one last. One looks from +z, or from above.
+fn far_to_near(view: &View) -> Vec<usize> {
+    let snapshot = view.screen.snapshot;
+    let nearness = |i: usize| match view.side {
+        Side::Side => snapshot.x[i].z,
+        Side::Top => snapshot.x[i].y,
+    };
+    let mut order: Vec<usize> = (0..snapshot.x.len()).collect();
+    let selected = view.screen.view_settings.selected;
+    order.sort_by(|&a, &b| {
+        let last = |i: usize| selected == Some(i);
+        last(a).cmp(&last(b)).then(nearness(a).total_cmp(&nearness(b)))
+    });
+    order
 }
 
 /// Free: an outline. Resting: with a chord. Colliding: filled. Tiny: a dot or a few, a bar, a cross.

@@ -71,6 +71,7 @@ fn badge(mode: Mode, sheet: &Sheet) -> (&'static str, Style) {
     let (word, style) = match mode {
         Mode::Run => ("RUN", palette.good()),
         Mode::Pause => ("PAUSE", palette.notice()),
+        Mode::Back => ("BACK", palette.ghost()),
         Mode::Stalled => ("STALL", palette.alarm()),
     };
     (word, style.patch(palette.reverse()).patch(palette.strong()))

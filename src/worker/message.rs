@@ -2,44 +2,47 @@
 
 use std::sync::Arc;
 
+use super::{
+    job::Job,
+    stop::{Met, Stop},
+};
 use crate::{
-    scene::{Scene, Settings},
-    snapshot::{Snapshot, Stage, Ticks},
+    scene::Settings,
+    snapshot::{Kept, Snapshot, Ticks},
 };
 
 /// Called, from the worker's thread, when there is a report that the reader has not taken.
 pub type Notify = Arc<dyn Fn() + Send + Sync>;
-
-/// A scene to simulate.
-#[derive(Debug, Clone)]
-pub struct Job {
-    /// What its snapshots show as constant.
-    pub stage: Arc<Stage>,
-    /// The scene.
-    pub scene: Arc<Scene>,
-    /// What to solve it with.
-    pub settings: Settings,
-}
 
 /// A command to a worker.
 #[derive(Debug, Clone)]
 pub enum Command {
     /// Take another scene, paused at t = 0.
     Load(Job),
-    /// Run at the speed set, or pause.
+    /// Run at the speed set, or pause. A run that was gone back in goes on from where it is, and its later frames are
+    /// dropped.
     Run(bool),
-    /// Complete one more frame, then pause. Frames asked for while one is under way add up.
-    Step,
-    /// Go on, as fast as possible, to the end of the next frame with an impact; then pause.
-    NextImpact,
-    /// Go on, as fast as possible, to the first frame that ends at or after this time, s; then pause. A time that is
-    /// already past is reached from the start.
+    /// Complete so many more frames, then pause; of a run that was gone back in, up to the newest. Frames asked for
+    /// while some are under way add up.
+    Forward(u64),
+    /// So many frames back, or as many as there are. Frames asked for while some are under way add up.
+    Back(u64),
+    /// Go on, as fast as possible, until this comes; then pause. If it does not come within the scene's duration, the
+    /// run is back where it was.
+    Until(Stop),
+    /// Back to the frame with the impact before.
+    PreviousImpact,
+    /// Back to the first frame that is kept.
+    Oldest,
+    /// On to the newest frame.
+    Newest,
+    /// To the first frame that ends at or after this time, s, back or, as fast as possible, on; then pause.
     Goto(f64),
     /// Back to t = 0 with the settings in force; running goes on running.
     Restart,
     /// Run at so many simulated seconds per second, > 0.
     Speed(f64),
-    /// Solve with these settings from the next frame on.
+    /// Solve with these settings from the next frame on; later frames than the one shown are dropped.
     Settings(Settings),
     /// Panic, so that a test can see what a user would; not in the release program.
     #[cfg(debug_assertions)]
@@ -73,8 +76,60 @@ pub struct Report {
     pub reached: Option<f64>,
     /// Commands obeyed so far.
     pub obeyed: u64,
+    /// What it is, or will be from the next frame on, solved with.
+    pub settings: Settings,
+    /// Which frames one can go to.
+    pub kept: Kept,
+    /// What there was to say last, and its number, from 1.
+    pub said: Option<(u64, Said)>,
     /// CPU time spent on the run since t = 0, s; 0 where the system does not tell.
     pub cpu: f64,
     /// The text of the worker's panic, after which no report follows; none if it has not panicked.
     pub panic: Option<String>,
+}
+
+/// What a worker has to say beside what it shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Said {
+    /// The run has stopped because this came, at this time, s.
+    Met {
+        /// What was waited for.
+        stop: Stop,
+        /// What came.
+        met: Met,
+        /// When, s.
+        t: f64,
+    },
+    /// It has not come; the run is back where it was.
+    Nothing {
+        /// What was waited for.
+        stop: Stop,
+        /// Since when, s.
+        from: f64,
+        /// For how long, s.
+        within: f64,
+    },
+    /// A time to be waited for, s, is past.
+    Past {
+        /// The time, s.
+        t: f64,
+    },
+    /// The run goes on from an earlier frame, and the later ones are dropped.
+    Dropped {
+        /// How many.
+        frames: u64,
+        /// From when on, s.
+        t: f64,
+    },
+    /// There is no frame before: this is the start.
+    Start,
+    /// No frame before this one is kept.
+    Oldest {
+        /// Its time, s.
+        t: f64,
+    },
+    /// There is no later frame: this is the newest.
+    Newest,
+    /// There is no earlier impact.
+    NoEarlierImpact,
 }

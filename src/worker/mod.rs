@@ -6,23 +6,32 @@
 //!
 //! | file | owns |
 //! |---|---|
-//! | `message` | what goes to a worker and what comes back |
+//! | `message`, `job` | what goes to a worker and what comes back; what it works on |
 //! | `thread` | the worker, seen from its reader |
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
+//! | `goal`, `stop` | where the run ends its advance; what it waits for |
+//! | `course`, `keyframes` | the run and its past; what of it is kept |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
 
+mod course;
 mod errands;
 mod exact_follower;
+mod goal;
+mod job;
+mod keyframes;
 mod mailbox;
 mod message;
 mod pace;
 mod run;
 mod slot;
+mod stop;
 mod thread;
 
 pub use errands::Errands;
 pub use exact_follower::{Ending, ExactFollower};
-pub use message::{Activity, Command, Job, Notify, Report};
+pub use job::Job;
+pub use message::{Activity, Command, Notify, Report, Said};
+pub use stop::{Bodies, Met, Stop};
 pub use thread::Worker;

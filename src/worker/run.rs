@@ -9,16 +9,20 @@ use std::{
 };
 
 use super::{
-    message::{Activity, Command, Job, Report},
+    course::Course,
+    goal::{Back, Goal, Way},
+    job::Job,
+    message::{Activity, Command, Report, Said},
     pace::Pace,
     slot::Slot,
+    stop::{Search, Stop},
 };
 use crate::{
     audit::Watch,
     measure::{self, Slices},
-    physics::{Class, Progress, Simulation, Stall, Until},
+    physics::{Class, Contact, Progress, Until},
     scene::Settings,
-    snapshot::{Snapshot, Ticks},
+    snapshot::{Alarm, Snapshot, Ticks},
 };
 
 /// Time between two reports of a running run, s: more often than a screen is drawn.
@@ -33,41 +37,32 @@ const CALL: f64 = 3e-3;
 /// Reports take at most a fifth of the time, however large the scene.
 const REPORT_SHARE: f64 = 4.0;
 
-/// Where the run ends its advance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Goal {
-    Nowhere,
-    /// On, at the pace set.
-    On,
-    /// So many frames further.
-    Frames(u64),
-    /// To a frame after which there have been more impacts than `past`, or that ends after `last`, s.
-    Impact {
-        past: u64,
-        last: f64,
-    },
-    /// To a frame that ends at or after this time, s.
-    Time(f64),
-}
-
 /// A run and its commands.
 pub(super) struct Runner {
     commands: Receiver<Command>,
     clock: Instant,
-    job: Job,
-    simulation: Simulation,
+    course: Course,
     watch: Watch,
+    /// What was wrong before the watch began, in a run that was gone back in.
+    alarm: Alarm,
     snapshot: Arc<Snapshot>,
     ticks: Ticks,
     goal: Goal,
-    stall: Option<Stall>,
+    /// What happened in the frame under way, or the one that has just ended.
+    events: Vec<Contact>,
+    /// Whether the next event is of another frame.
+    frame_is_over: bool,
     pace: Pace,
     slices: Slices,
     obeyed: u64,
+    /// What there was to say last, and how many things before.
+    said: Option<(u64, Said)>,
     /// Whether the simulation has moved since `snapshot`.
     moved: bool,
     /// Whether anything has changed since the last report.
     unreported: bool,
+    /// Whether there may be something to do while the run waits.
+    scouting: bool,
     /// CPU time spent on advancing since t = 0, s.
     cpu: f64,
     /// When the next report of a running run is due, s on `clock`.
@@ -76,22 +71,26 @@ pub(super) struct Runner {
 
 impl Runner {
     pub(super) fn new(job: Job, speed: f64, commands: Receiver<Command>) -> Runner {
-        let simulation = begin(&job);
+        let course = Course::new(job);
+        let stage = Arc::clone(&course.job().stage);
         Runner {
             commands,
             clock: Instant::now(),
-            snapshot: Arc::new(Snapshot::of(&job.stage, &simulation, None)),
-            ticks: Ticks::new(job.stage.duration),
-            job,
-            watch: Watch::new(&simulation),
-            simulation,
+            snapshot: Arc::new(Snapshot::of(&stage, course.simulation(), None)),
+            ticks: Ticks::new(stage.duration),
+            watch: Watch::new(course.simulation()),
+            alarm: Alarm::default(),
+            course,
             goal: Goal::Nowhere,
-            stall: None,
+            events: Vec::new(),
+            frame_is_over: true,
             pace: Pace::new(speed, 0.0, 0.0),
             slices: Slices::of(CALL),
             obeyed: 0,
+            said: None,
             moved: false,
             unreported: false,
+            scouting: false,
             cpu: 0.0,
             report_due: 0.0,
         }
@@ -100,11 +99,14 @@ impl Runner {
     /// Obeys, advances and reports until no sender of commands is left.
     pub(super) fn run(&mut self, slot: &Slot<Report>) {
         while self.listen() {
-            if self.goal != Goal::Nowhere {
+            if !self.goal.is_nowhere() {
                 self.slice();
+                self.scouting = true;
+            } else if self.scouting {
+                self.scouting = self.course.scout(self.slices.work(), || self.clock.elapsed().as_secs_f64());
             }
             let now = self.now();
-            if self.unreported && (self.goal == Goal::Nowhere || now >= self.report_due) {
+            if self.unreported && (self.goal.is_nowhere() || now >= self.report_due) {
                 slot.put(self.report());
                 let cost = self.now() - now;
                 self.report_due = now + TICK.max(cost * REPORT_SHARE);
@@ -135,10 +137,10 @@ impl Runner {
     /// How long there is nothing to do, s: `None` until a command comes.
     fn rest(&self) -> Option<f64> {
         match self.goal {
-            Goal::Nowhere => None,
+            Goal::Nowhere => self.scouting.then_some(0.0),
             Goal::On => {
                 let now = self.now();
-                let due = self.pace.wait(now, self.simulation.time());
+                let due = self.pace.wait(now, self.time());
                 // Running ahead of the wall: one tick at least, so that reports set the rhythm.
                 let due = if due > 0.0 { due.max(TICK) } else { 0.0 };
                 Some(if self.unreported { due.min((self.report_due - now).max(0.0)) } else { due })
@@ -152,33 +154,35 @@ impl Runner {
         self.unreported = true;
         match command {
             Command::Load(job) => {
-                self.job = job;
                 self.goal = Goal::Nowhere;
-                self.restart(self.job.settings);
+                self.restart(job);
             }
-            Command::Restart => self.restart(self.simulation.settings()),
-            Command::Run(on) => self.head_for(if on { Goal::On } else { Goal::Nowhere }),
-            Command::Step => match self.goal {
-                Goal::Frames(n) => self.goal = Goal::Frames(n + 1),
-                _ => self.head_for(Goal::Frames(1)),
-            },
-            Command::NextImpact => {
-                // All may rest: what does not come within another duration of the scene is not waited for.
-                let last = self.simulation.time() + self.job.stage.duration;
-                self.head_for(Goal::Impact { past: self.simulation.tallies().impacts, last });
+            Command::Restart => self.begin_again(self.course.settings()),
+            Command::Run(true) => self.run_on(),
+            Command::Run(false) => {
+                self.moved |= self.course.is_past();
+                self.head_for(Goal::Nowhere);
             }
-            Command::Goto(t) => {
-                if t < self.simulation.time() {
-                    self.restart(self.simulation.settings());
+            Command::Forward(frames) => {
+                let newest = if self.course.is_past() { self.course.newest().0 } else { u64::MAX };
+                self.go_to_frame(self.frame_ahead().saturating_add(frames).min(newest));
+            }
+            Command::Back(frames) => self.back(frames),
+            Command::Until(stop) => self.search(stop),
+            Command::PreviousImpact => match Back::begin(&mut self.course) {
+                Some(mut back) => {
+                    let way = back.look(&mut self.course);
+                    self.head_for(Goal::Impact(back));
+                    self.follow(way);
                 }
-                self.head_for(if t > self.simulation.time() { Goal::Time(t) } else { Goal::Nowhere });
-            }
-            Command::Speed(wanted) => self.pace = Pace::new(wanted, self.now(), self.simulation.time()),
-            Command::Settings(settings) => {
-                self.simulation.set_settings(settings);
-                self.stall = None;
-                self.moved = true;
-            }
+                None => self.say(Said::NoEarlierImpact),
+            },
+            Command::Oldest => self.back(u64::MAX),
+            Command::Newest if self.course.is_past() => self.go_to_frame(self.course.newest().0),
+            Command::Newest => self.say(Said::Newest),
+            Command::Goto(t) => self.go_to_time(t),
+            Command::Speed(wanted) => self.pace = Pace::new(wanted, self.now(), self.time()),
+            Command::Settings(settings) => self.solve_with(settings),
             #[cfg(debug_assertions)]
             Command::Panic => panic!("asked to panic"),
         }
@@ -186,87 +190,254 @@ impl Runner {
 
     fn head_for(&mut self, goal: Goal) {
         self.goal = goal;
-        self.pace = Pace::new(self.pace.wanted(), self.now(), self.simulation.time());
+        self.pace = Pace::new(self.pace.wanted(), self.now(), self.time());
     }
 
-    fn restart(&mut self, settings: Settings) {
-        self.job.settings = settings;
-        self.simulation = begin(&self.job);
-        self.watch = Watch::new(&self.simulation);
-        self.ticks = Ticks::new(self.job.stage.duration);
-        self.stall = None;
+    fn say(&mut self, said: Said) {
+        let count = self.said.as_ref().map_or(0, |(count, _)| *count);
+        self.said = Some((count + 1, said));
+    }
+
+    /// The frame shown, or the one that the run is on its way to.
+    fn frame_ahead(&self) -> u64 {
+        if let Goal::Frame(frame) = self.goal { frame } else { self.course.frame() }
+    }
+
+    fn time(&self) -> f64 {
+        self.course.time()
+    }
+
+    /// On and on, from the frame shown.
+    fn run_on(&mut self) {
+        self.branch();
+        self.head_for(Goal::On);
+    }
+
+    /// Has the run go on from the frame shown, and says that the later ones are dropped.
+    fn branch(&mut self) {
+        let frames = self.cut();
+        if frames > 0 {
+            let t = self.time();
+            self.say(Said::Dropped { frames, t });
+        }
+    }
+
+    /// Drops the frames after the one shown, with what they have told; how many they were.
+    fn cut(&mut self) -> u64 {
+        if !self.course.is_past() {
+            return 0;
+        }
+        let frames = self.course.branch();
+        let run = self.course.simulation();
+        self.ticks.cut(run.time(), run.tallies().impacts);
+        self.alarm = until(both(&self.alarm, self.watch.alarm()), run.time());
+        self.watch = Watch::new(run);
+        self.events.clear();
+        self.moved = true;
+        frames
+    }
+
+    fn solve_with(&mut self, settings: Settings) {
+        self.branch();
+        let waits = self.course.set(settings);
+        self.moved = true;
+        if waits && self.goal.is_nowhere() {
+            self.head_for(Goal::Frame(self.course.frame() + 1));
+        }
+    }
+
+    fn begin_again(&mut self, settings: Settings) {
+        let on = matches!(self.goal, Goal::On);
+        self.restart(Job { settings, ..self.course.job().clone() });
+        self.head_for(if on { Goal::On } else { Goal::Nowhere });
+    }
+
+    fn restart(&mut self, job: Job) {
+        self.ticks = Ticks::new(job.stage.duration);
+        self.course = Course::new(job);
+        self.watch = Watch::new(self.course.simulation());
+        self.alarm = Alarm::default();
+        self.events.clear();
         self.cpu = 0.0;
         self.moved = true;
-        self.head_for(if self.goal == Goal::On { Goal::On } else { Goal::Nowhere });
+    }
+
+    fn back(&mut self, frames: u64) {
+        let (ahead, (oldest, t, _)) = (self.frame_ahead(), self.course.oldest());
+        if ahead <= oldest {
+            self.say(if oldest == 0 { Said::Start } else { Said::Oldest { t } });
+            self.head_for(Goal::Nowhere);
+        } else {
+            self.go_to_frame(ahead.saturating_sub(frames).max(oldest));
+        }
+    }
+
+    /// To the end of a frame, back or on.
+    fn go_to_frame(&mut self, frame: u64) {
+        self.course.set_out(frame);
+        self.head_for(Goal::Frame(frame));
+        self.arrive();
+    }
+
+    /// To the first frame that ends at or after `t`, s; a time before all that is kept is reached from the start.
+    fn go_to_time(&mut self, t: f64) {
+        let (oldest, from, _) = self.course.oldest();
+        if t < from && oldest > 0 {
+            self.begin_again(self.course.settings());
+        }
+        self.course.set_out_for(t);
+        self.head_for(Goal::Time(t));
+        self.arrive();
+    }
+
+    /// Goes on until something comes.
+    fn search(&mut self, stop: Stop) {
+        for event in self.course.take_events() {
+            self.count(&event); // what happened at load
+        }
+        let search = Search::new(stop, &self.course);
+        match stop {
+            Stop::Time(t) if t <= search.from.1 => {
+                self.say(Said::Past { t });
+                self.head_for(Goal::Nowhere);
+            }
+            _ => self.head_for(Goal::Until(Box::new(search))),
+        }
+    }
+
+    fn count(&mut self, event: &Contact) {
+        if event.class == Class::Collide && !self.course.is_past() {
+            self.ticks.add(event.time);
+        }
     }
 
     /// Advances for about [`SLICE`], or to the goal, or up to what is due.
     fn slice(&mut self) {
         let (start, worked) = (self.now(), measure::thread_cpu());
         let until = match self.goal {
-            Goal::On => Until::Time(self.pace.target(start, self.simulation.time())),
-            Goal::Time(t) => Until::Time(t),
-            _ => Until::Frame,
+            Goal::On => Until::Time(self.pace.target(start, self.course.time())),
+            _ => self.goal.until(),
         };
-        while self.goal != Goal::Nowhere && self.now() - start < SLICE {
-            if matches!(until, Until::Time(t) if self.simulation.time() >= t) {
+        while !self.goal.is_nowhere() && self.now() - start < SLICE {
+            if matches!((&self.goal, until), (Goal::On, Until::Time(t)) if self.time() >= t) {
                 break;
             }
             self.advance(until);
         }
-        self.cpu += measure::thread_cpu() - worked;
-        self.pace.measure(self.now(), self.simulation.time());
+        if !self.course.is_past() {
+            self.cpu += measure::thread_cpu() - worked;
+        }
+        let (now, time) = (self.now(), self.time());
+        self.pace.measure(now, time);
     }
 
-    /// One call into the simulation, and what follows from it.
+    /// One call into the run, and what follows from it.
     fn advance(&mut self, until: Until) {
         let before = self.now();
-        let progress = self.simulation.advance(until, self.slices.work());
-        self.watch.look(&self.simulation, false);
-        self.moved = true;
+        let progress = self.course.advance(until, self.slices.work());
+        let took = self.now() - before;
+        if !self.course.is_past() {
+            self.watch.look(self.course.simulation(), false);
+            self.moved = true;
+        }
         self.unreported = true;
-        for event in self.simulation.take_events() {
-            if event.class == Class::Collide {
-                self.ticks.add(event.time);
-            }
+        self.course.note_work(took, || self.clock.elapsed().as_secs_f64());
+        if std::mem::take(&mut self.frame_is_over) {
+            self.events.clear();
+        }
+        for event in self.course.take_events() {
+            self.count(&event);
+            self.events.push(event);
         }
         match progress {
-            Progress::Reached => self.arrive(),
-            Progress::Yielded => self.slices.learn(self.now() - before),
-            Progress::Stalled(stall) => {
-                self.stall = Some(stall);
-                self.goal = Goal::Nowhere;
+            Progress::Reached => {
+                self.frame_is_over = true;
+                self.arrive();
             }
+            Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
+            Progress::Yielded => {}
+            Progress::Stalled(_) => self.goal = Goal::Nowhere,
         }
     }
 
     /// A frame, or the time asked for, is complete: is that where the run was going?
     fn arrive(&mut self) {
-        self.goal = match self.goal {
-            Goal::Frames(n) if n > 1 => Goal::Frames(n - 1),
-            Goal::Impact { past, last }
-                if self.simulation.tallies().impacts <= past && self.simulation.time() < last =>
-            {
-                Goal::Impact { past, last }
+        let course = &mut self.course;
+        let frame = course.frame();
+        let there = match &mut self.goal {
+            Goal::Nowhere | Goal::On => false,
+            Goal::Frame(target) => frame > *target || course.is_at(*target),
+            Goal::Return(target) if frame > *target || course.is_at(*target) => {
+                self.cut();
+                true
             }
-            Goal::On => Goal::On,
-            Goal::Nowhere | Goal::Frames(_) | Goal::Impact { .. } | Goal::Time(_) => Goal::Nowhere,
+            Goal::Return(_) => false,
+            Goal::Time(t) => course.time() >= *t && course.is_at(frame),
+            Goal::Impact(back) => {
+                let way = back.look(course);
+                return self.follow(way);
+            }
+            Goal::Until(_) => return self.look_for_stop(),
         };
+        if there {
+            self.stop_here();
+        }
+    }
+
+    /// What comes next on the way back to an impact.
+    fn follow(&mut self, way: Way) {
+        match (way, &self.goal) {
+            (Way::There, _) => self.stop_here(),
+            (Way::InVain, Goal::Impact(Back { from, .. })) => {
+                self.go_to_frame(*from);
+                self.say(Said::NoEarlierImpact);
+            }
+            _ => {}
+        }
+    }
+
+    fn stop_here(&mut self) {
+        self.goal = Goal::Nowhere;
+        self.moved = true;
+    }
+
+    /// Whether what was waited for has come, or the scene's duration is over without it: then back to where it began.
+    fn look_for_stop(&mut self) {
+        let Goal::Until(search) = &mut self.goal else { return };
+        let run = self.course.simulation();
+        let (t, stop, within) = (run.time(), search.stop, search.within);
+        if let Some(met) = search.met(run, &self.events) {
+            self.stop_here();
+            return self.say(Said::Met { stop, met, t });
+        }
+        let ((frame, from), in_the_past) = (search.from, search.in_the_past);
+        if t < from + within {
+            return;
+        }
+        self.say(Said::Nothing { stop, from, within });
+        self.course.set_out(frame);
+        self.head_for(if in_the_past { Goal::Frame(frame) } else { Goal::Return(frame) });
+        self.arrive();
     }
 
     /// A report of the run at the end of its last frame.
     pub(super) fn report(&mut self) -> Report {
+        let is_past = self.course.is_past();
         if self.moved {
-            self.watch.look(&self.simulation, true);
-            let snapshot = Snapshot::of(&self.job.stage, &self.simulation, self.stall.as_ref());
-            self.snapshot = Arc::new(Snapshot { alarm: *self.watch.alarm(), ..snapshot });
+            let run = self.course.simulation();
+            if !is_past {
+                self.watch.look(run, true);
+            }
+            let snapshot = Snapshot::of(&self.course.job().stage, run, self.course.stall());
+            let alarm = until(both(&self.alarm, self.watch.alarm()), snapshot.t);
+            self.snapshot = Arc::new(Snapshot { alarm, ..snapshot });
         }
         self.moved = false;
         self.unreported = false;
         Report {
             snapshot: Arc::clone(&self.snapshot),
             ticks: Arc::new(self.ticks.clone()),
-            activity: match (self.goal, &self.stall) {
+            activity: match (&self.goal, self.course.stall()) {
                 (Goal::Nowhere, Some(_)) => Activity::Stalled,
                 (Goal::Nowhere, None) => Activity::Paused,
                 _ => Activity::Running,
@@ -274,6 +445,9 @@ impl Runner {
             wanted: self.pace.wanted(),
             reached: self.pace.reached(),
             obeyed: self.obeyed,
+            settings: self.course.settings(),
+            kept: self.course.kept(),
+            said: self.said,
             cpu: self.cpu,
             panic: None,
         }
@@ -284,9 +458,17 @@ impl Runner {
     }
 }
 
-/// The job's simulation at t = 0, keeping the events that the collision ticks count.
-fn begin(job: &Job) -> Simulation {
-    let mut simulation = Simulation::new(&job.scene, job.settings);
-    simulation.record_events(true);
-    simulation
+/// What either tells; of the same kind the earlier.
+fn both(before: &Alarm, after: &Alarm) -> Alarm {
+    Alarm {
+        overlap: before.overlap.or(after.overlap),
+        energy: before.energy.or(after.energy),
+        cause: before.cause.or(after.cause),
+    }
+}
+
+/// What was wrong already at `t`, s.
+fn until(alarm: Alarm, t: f64) -> Alarm {
+    let energy = alarm.energy.filter(|it| it.time <= t);
+    Alarm { overlap: alarm.overlap.filter(|it| it.time <= t), energy, cause: alarm.cause.filter(|_| energy.is_some()) }
 }

@@ -10,7 +10,8 @@ use std::{
 };
 
 use super::{
-    message::{Command, Job, Notify, Report},
+    job::Job,
+    message::{Command, Notify, Report},
     run::Runner,
     slot::Slot,
 };

@@ -66,23 +66,23 @@ fn matters(scene: &Scene, row: &Contact, unit: f64) -> bool {
 }
 
 /// The events of a run until `t` (s) that matter in this unit of speed (m/s), and why it did not get there if it did not.
-fn events(scene: &Scene, dt: f64, t: f64, unit: f64) -> (Vec<Contact>, &'static str) {
+fn events(scene: &Scene, dt: f64, t: f64, unit: f64) -> (Vec<Contact>, Option<String>) {
     let (mut rows, end) = all_events(scene, dt, t);
     rows.retain(|row| matters(scene, row, unit));
     (rows, end)
 }
 
-fn all_events(scene: &Scene, dt: f64, t: f64) -> (Vec<Contact>, &'static str) {
+fn all_events(scene: &Scene, dt: f64, t: f64) -> (Vec<Contact>, Option<String>) {
     let mut run = Simulation::new(scene, carom::physics::Settings { dt, ..EXACT });
     run.record_events(true);
     for _ in 0..BUDGET / 1000 {
         match run.advance(Until::Time(t), 1000) {
-            Progress::Reached => return (run.take_events(), ""),
+            Progress::Reached => return (run.take_events(), None),
             Progress::Yielded => {}
-            Progress::Stalled(stall) => return (run.take_events(), stall.kind),
+            Progress::Stalled(stall) => return (run.take_events(), Some(stall.kind.to_string())),
         }
     }
-    (run.take_events(), "work")
+    (run.take_events(), Some("work".into()))
 }
 
 /// How far two events are apart, lengths and times taken in these units; none if they are different ones.

@@ -56,7 +56,7 @@ pub(crate) fn with_default_signals(arguments: &[&str]) -> Command {
 }
 
 fn plain(mut command: Command, arguments: &[&str]) -> Command {
-    command.args(arguments).env("TERM", "xterm-256color").stdin(Stdio::null());
+    command.args(arguments).env("TERM", "xterm-256color").env("CAROM_CONFIG", "/dev/null").stdin(Stdio::null());
     for name in ["NO_COLOR", "COLORTERM", "CLICOLOR_FORCE", "COLUMNS", "LINES"] {
         command.env_remove(name);
     }

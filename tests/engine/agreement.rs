@@ -1,7 +1,7 @@
 //! What each method does in the source paper's scenes, against the reference found by three independent codes.
 
 use crate::support::{ELASTIC, paper, paper_scene, run_to, scene, sphere};
-use carom::physics::{Class, Contact, Method, Progress, Settings, Simulation, Stall, State, Until};
+use carom::physics::{Class, Contact, Method, Progress, Settings, Simulation, Stall, StallKind, State, Until};
 use glam::DVec3;
 
 /// First impact of each scene, s (reference).
@@ -51,7 +51,7 @@ fn paper_stalls_in_the_wedges_of_scenes_2_and_4_and_says_what_to_do() {
         let (mut run, stall) = twenty_seconds(k);
         let stall = stall.expect("a wedge holds no sphere by forces given contact by contact");
         assert!((stall.time - time).abs() < 0.1 && stall.time == run.time(), "scene {k}: {}", stall.time);
-        assert_eq!(stall.kind, "resting-contact");
+        assert_eq!(stall.kind, StallKind::RestingContact);
         assert!(stall.reason.contains("change the method from here"), "{}", stall.reason);
         assert_eq!(run.advance(Until::Frame, 1), Progress::Stalled(stall));
         // It has spent no more than the watchdog's patience on it: a second at 60 frames is far more.
@@ -92,7 +92,7 @@ fn a_state_beyond_the_range_of_numbers_is_reported_and_never_shown() {
     for &method in Method::ALL {
         let mut run = Simulation::new(&fast, Settings { method, ..paper(1.0, 1e-3) });
         let stall = run_to(&mut run, 1e3, u64::MAX).expect("1e307 m/s leave f64 within 18 s");
-        assert_eq!((stall.kind, stall.time), ("not-finite", run.time()), "{method:?}");
+        assert_eq!((stall.kind, stall.time), (StallKind::NotFinite, run.time()), "{method:?}");
         assert!(stall.reason.starts_with("Sphere 1 "), "{method:?}: {}", stall.reason);
         assert!(run.state().x.iter().all(|x| x.is_finite()), "{method:?}");
     }
@@ -110,7 +110,7 @@ fn an_impact_that_sends_a_sphere_out_of_range_is_reported_with_sphere_time_and_c
         let stall = run_to(&mut run, 10.0, u64::MAX).expect("out of range");
         // They touch when 7e29 m of the way are gone.
         let off = stall.time / (7e29 / 8e74) - 1.0;
-        assert!(stall.kind == "not-finite" && off.abs() < 1e-3, "{method:?}: {stall:?}");
+        assert!(stall.kind == StallKind::NotFinite && off.abs() < 1e-3, "{method:?}: {stall:?}");
         assert!(
             stall.reason.contains("Sphere 0 ") && stall.reason.contains("a contact"),
             "{method:?}: {}",
@@ -126,7 +126,7 @@ fn a_step_too_small_to_change_the_time_is_reported() {
     let scene = scene(DVec3::ZERO, ELASTIC, Vec::new(), vec![body]);
     let mut run = Simulation::resumed(&scene, paper(1e-9, 1e-3), 1e9, &[DVec3::ZERO]);
     let stall = run_to(&mut run, 2e9, u64::MAX).expect("1e-9 s vanish beside 1e9 s");
-    assert_eq!(stall.kind, "step-too-small");
+    assert_eq!(stall.kind, StallKind::StepTooSmall);
 }
 
 /// How long positions of scene `k` mean anything, s: later on scene 4 grows rounding to metres.

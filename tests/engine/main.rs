@@ -15,6 +15,7 @@ mod extremes;
 mod funnels;
 mod gas;
 mod impact_law;
+mod keyframes;
 mod laws;
 mod long;
 mod moreau;

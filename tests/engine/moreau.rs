@@ -3,7 +3,7 @@
 use crate::support::{
     ELASTIC, G, PAPER_LAW, changed, floor, gas, lattice, moved, pyramid, room, run_to, scene, sphere, wall,
 };
-use carom::physics::{Class, Contact, Kind, Method, Scene, Settings, Simulation, Until};
+use carom::physics::{Class, Contact, Kind, Method, Scene, Settings, Simulation, StallKind, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 
@@ -304,7 +304,7 @@ fn a_frame_in_which_everything_may_meet_is_refused_by_count_and_names_dt() {
         (stall, run.tallies().evaluations)
     };
     let (stall, evaluations) = stalled(u64::MAX);
-    assert_eq!((stall.kind, stall.time), ("step-too-large", 0.0));
+    assert_eq!((stall.kind, stall.time), (StallKind::StepTooLarge, 0.0));
     for word in ["10 s", "smaller dt", "1344928 pairs"] {
         assert!(stall.reason.contains(word), "{word:?} is not in {:?}", stall.reason);
     }

@@ -75,6 +75,7 @@ impl Start<'_> {
             command.env_remove(variable);
         }
         command.env("LANG", "C.UTF-8");
+        command.env("CAROM_CONFIG", "/dev/null"); // not the one of whoever runs the tests
         command.env("TERM", "xterm-256color");
         for (name, value) in self.environment {
             command.env(name, value);
@@ -209,6 +210,11 @@ impl Pty {
     /// Gives the test so long from now on, instead of what is long enough for every other one.
     pub(crate) fn allow(&mut self, time: Duration) {
         self.watch = watch::Watch::within(self.pid, time);
+    }
+
+    /// Its process id.
+    pub(crate) fn pid(&self) -> i32 {
+        self.pid.as_raw_nonzero().get()
     }
 
     /// Memory that the program has in use, bytes; 0 where the system has no `/proc`.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use carom::random::SplitMix64;
 use carom::{
     geometry::{Bounds, Parallelogram},
-    snapshot::{Alarm, Class, Contact, Ghost, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
+    snapshot::{Alarm, Class, Contact, ContactLaw, Ghost, Kept, Kind, Probe, Snapshot, Stage, Tallies, Ticks, Trade},
     view::{Comparison, Mode, Pace, Popup, Screen, ViewSettings},
 };
 use glam::{DVec3, dvec3};
@@ -16,6 +16,7 @@ use glam::{DVec3, dvec3};
 pub(crate) struct Scene {
     pub(crate) snapshot: Snapshot,
     pub(crate) ticks: Ticks,
+    pub(crate) kept: Kept,
     pub(crate) view_settings: ViewSettings,
     pub(crate) pace: Pace,
     /// The exact run beside it.
@@ -41,6 +42,7 @@ impl Scene {
             snapshot: &self.snapshot,
             pace: self.pace,
             ticks: &self.ticks,
+            kept: self.kept,
             comparison: self.comparison.as_ref().map(|(ghost, trade)| Comparison { ghost: ghost.as_ref(), trade }),
             view_settings: &self.view_settings,
             popup: Popup::None,
@@ -80,6 +82,9 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         masses: vec![1.0; spheres.len()],
         colors: vec![None; spheres.len()],
         names: vec![None; spheres.len()],
+        gravity: dvec3(0.0, -9.8, 0.0),
+        forces: vec![DVec3::ZERO; spheres.len()],
+        law: ContactLaw { restitution: 0.8, wall_restitution: 0.8, tangential: 0.98, rest_speed: 0.1 },
     };
     let snapshot = Snapshot {
         stage: Arc::new(stage),
@@ -90,17 +95,21 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         energy: 98.0,
         initial_energy: 98.0,
         contacts: Vec::new(),
+        rest_reasons: Vec::new(),
+        approaches: Vec::new(),
         probes: Vec::new(),
+        trials: Vec::new(),
         tallies: Tallies::default(),
         method: "paper",
         dt: 0.01,
         tolerance: 0.001,
+        slack: Some(1e-4),
         stall: None,
         alarm: Alarm::default(),
     };
     let ticks = Ticks { span: 20.0, impacts: vec![0; 80] };
     let pace = Pace { mode: Mode::Pause, wanted: 1.0, reached: None };
-    Scene { snapshot, ticks, view_settings: ViewSettings::default(), pace, comparison: None }
+    Scene { snapshot, ticks, kept: Kept::default(), view_settings: ViewSettings::default(), pace, comparison: None }
 }
 
 /// Changes what is constant.
@@ -116,6 +125,7 @@ pub(crate) fn contact(kind: Kind, a: usize, b: usize, class: Class) -> Contact {
         b,
         point: DVec3::ZERO,
         normal: DVec3::Y,
+        velocity: dvec3(1.5, -7.4, 0.0),
         approach_speed: 7.891,
         separation_speed: 6.3128,
         impulse: 14.2038,

@@ -84,6 +84,11 @@ impl Chatter {
         Chatter { rows: BTreeMap::new(), weight }
     }
 
+    /// How many contacts it remembers.
+    pub(super) fn entries(&self) -> usize {
+        self.rows.len()
+    }
+
     /// Whether this impact is one of a row that should have died out long ago; `since` (s) is when the motion of its
     /// bodies last changed. A chain of impacts at one instant alone is no such row: nothing has fed it.
     pub(super) fn is_endless(

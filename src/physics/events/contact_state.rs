@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::record::Trajectory;
 use super::rounding::{CLOCK_ULPS, HOP, SUMMED_HOP};
 use super::trajectories::Trajectories;
+use crate::physics::approach::Approach;
 use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::impact_law::{normal_velocity, pair_normal_velocity};
 use crate::physics::model::Model;
@@ -28,6 +29,8 @@ pub(crate) struct ContactState {
     pub(crate) gap: f64,
     /// What the gap is measured by, m: r, or r₁ + r₂.
     pub(crate) reach: f64,
+    /// Velocity of the first sphere relative to the other body, m/s.
+    pub(crate) velocity: DVec3,
     /// Normal velocity, m/s: the predictor's own expression.
     pub(crate) v_n: f64,
     /// How fast v_n grows as things are, m/s²; negative: pressed together.
@@ -70,6 +73,7 @@ impl ContactState {
             b,
             point: self.point,
             normal: self.normal,
+            velocity: self.velocity,
             approach_speed: -self.v_n,
             separation_speed,
             impulse,
@@ -102,18 +106,32 @@ impl Trajectories {
         let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
         let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
         let flat = part == Part::Face && at.part == part;
-        ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach: r, v_n, a_n, flat }
+        let (point, normal, gap) = (at.point, at.normal, at.gap);
+        ContactState { key, point, normal, gap, reach: r, velocity: path.v, v_n, a_n, flat }
     }
 
-    /// Point, normal and gap only, at `time` (s); v_n and a_n of a wall stay 0, which take far longer to find.
+    /// Point, normal, gap and velocity only, at `time` (s); v_n and a_n of a wall stay 0, which take far longer to find.
     pub(crate) fn contact_geometry(&self, model: &Model, key: Key, time: f64) -> ContactState {
         let (kind, a, b) = key;
         if kind == Kind::Pair {
             return pair_state(key, [self.trajectory(a), self.trajectory(b)], [a, b].map(|i| self.path(i, time)));
         }
-        let reach = self.trajectory(a).r;
-        let at = touch(&model.faces[b], self.path(a, time).x, reach);
-        ContactState { key, point: at.point, normal: at.normal, gap: at.gap, reach, v_n: 0.0, a_n: 0.0, flat: false }
+        let (reach, path) = (self.trajectory(a).r, self.path(a, time));
+        let at = touch(&model.faces[b], path.x, reach);
+        let (point, normal, gap) = (at.point, at.normal, at.gap);
+        ContactState { key, point, normal, gap, reach, velocity: path.v, v_n: 0.0, a_n: 0.0, flat: false }
+    }
+
+    /// How the bodies of a contact that touch now came together since the motion of one of them last changed.
+    pub(crate) fn approach(&self, model: &Model, key: Key) -> Approach {
+        let (kind, a, b) = key;
+        let (one, since) = (self.trajectory(a), self.trajectory(a).t);
+        if kind == Kind::Wall {
+            return Approach::of_wall(key, [since, self.now], &self.path(a, since), (&model.faces[b], one.r));
+        }
+        let since = since.max(self.trajectory(b).t);
+        let path = self.path(a, since).relative_to(&self.path(b, since));
+        Approach::of_pair(key, [since, self.now], &path, one.r + self.trajectory(b).r)
     }
 
     /// The normal velocity of a contact whose trajectories are at the present, m/s.
@@ -137,5 +155,5 @@ fn pair_state(key: Key, lines: [&Trajectory; 2], [one, two]: [Path; 2]) -> Conta
     let across = relative.v - normal * v_n;
     let a_n = normal.dot(relative.a) + across.length_squared() / distance;
     let point = two.x + normal * (r_b + 0.5 * gap);
-    ContactState { key, point, normal, gap, reach, v_n, a_n, flat: false }
+    ContactState { key, point, normal, gap, reach, velocity: relative.v, v_n, a_n, flat: false }
 }

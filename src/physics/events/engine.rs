@@ -23,7 +23,10 @@ const FEW: usize = 64;
 
 /// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
 /// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
-const MOST_IDLE: f64 = (1_u64 << 30) as f64;
+pub(in crate::physics) const MOST_IDLE: f64 = (1_u64 << 30) as f64;
+
+/// Approaches that a frame keeps, from its first on.
+const MOST_APPROACHES: usize = 1000;
 
 /// Events at the very start after which the rest is left to the first frame.
 const MOST_AT_LOAD: usize = 1_000_000;
@@ -179,6 +182,22 @@ impl<D: Detector> EventDriven<D> {
         self.mechanics.state_at(model, t.clamp(self.frame.time - self.frame.step, self.frame.time))
     }
 
+    /// A copy that goes on bit for bit and knows nothing of the inside of the last frame.
+    pub(super) fn keep(&self) -> EventDriven<D> {
+        let EventDriven { settings, frame, schedule, mechanics } = self;
+        EventDriven {
+            settings: *settings,
+            frame: *frame,
+            schedule: schedule.clone(),
+            mechanics: mechanics.since(frame.time),
+        }
+    }
+
+    /// Memory that it takes beside its own size, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.schedule.bytes() + self.mechanics.bytes()
+    }
+
     /// Why a contact rests; none if it does not.
     pub(crate) fn rest_reason(&self, key: Key) -> Option<RestReason> {
         self.mechanics.rests.reason(key)
@@ -205,6 +224,7 @@ impl<D: Detector> EventDriven<D> {
         self.mechanics.forget_past();
         log.contacts.clear();
         log.probes.clear();
+        log.approaches.clear();
     }
 
     fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
@@ -266,6 +286,10 @@ impl<D: Detector> EventDriven<D> {
         if !plan.is_contact || stale || rested {
             schedule.predict_due(model, trajectories, rests, slot);
             return Ok(());
+        }
+        if log.explaining && log.approaches.len() < MOST_APPROACHES {
+            let key = mechanics.trajectories.key(slot, &plan);
+            log.approaches.push(mechanics.trajectories.approach(model, key));
         }
         if mechanics.collide_plain_pair(model, log, slot, &plan)? {
             let Mechanics { trajectories, rests, .. } = mechanics;

@@ -4,6 +4,9 @@ use super::chattering::Chatter;
 use super::instant::Instant;
 use crate::physics::model::Model;
 
+/// Memory that an entry of a map by contacts takes, bytes, with what is free beside it.
+const BYTES_AN_ENTRY: usize = 128;
+
 /// The memory of impacts.
 #[derive(Debug, Clone)]
 pub(crate) struct Impacts {
@@ -17,5 +20,10 @@ impl Impacts {
     /// None yet.
     pub(crate) fn new(model: &Model) -> Impacts {
         Impacts { instant: Instant::default(), chatter: Chatter::new(model) }
+    }
+
+    /// Memory that it takes beside its own size, bytes, as near as the numbers of its entries tell.
+    pub(crate) fn bytes(&self) -> usize {
+        BYTES_AN_ENTRY * (self.instant.entries() + self.chatter.entries())
     }
 }

@@ -16,7 +16,7 @@ use super::rounding::{CHAIN, LOST};
 use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
-use crate::physics::state::Stall;
+use crate::physics::state::{Stall, StallKind};
 
 /// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
 pub(super) const LONG_CHAIN: u64 = 1000;
@@ -59,6 +59,11 @@ pub(super) struct Instant {
 }
 
 impl Instant {
+    /// How many contacts it remembers.
+    pub(super) fn entries(&self) -> usize {
+        self.chain.len() + self.releases.len()
+    }
+
     /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
     pub(crate) fn has_collapsed(&self, key: Key) -> bool {
         self.collapsed && self.chain.get(&key).is_some_and(|&(count, _)| count > SHARE)
@@ -142,5 +147,5 @@ fn no_progress(now: f64) -> Stall {
     let reason = format!(
         "Events went on and on at t = {now} s without the clock advancing; set a larger rest_speed, or change the method from here."
     );
-    Stall { time: now, kind: "no-progress", reason }
+    Stall { time: now, kind: StallKind::NoProgress, reason }
 }

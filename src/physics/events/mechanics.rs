@@ -29,6 +29,20 @@ impl Mechanics {
         }
     }
 
+    /// A copy of which states from `time` (s) on can be read, and none before.
+    pub(crate) fn since(&self, time: f64) -> Mechanics {
+        Mechanics {
+            trajectories: self.trajectories.since(time),
+            rests: self.rests.since(time),
+            impacts: self.impacts.clone(),
+        }
+    }
+
+    /// Memory that they take beside their own size, bytes, as near as their parts tell.
+    pub(crate) fn bytes(&self) -> usize {
+        self.trajectories.bytes() + self.rests.bytes() + self.impacts.bytes()
+    }
+
     /// The state at `t` (s) within the last frame.
     pub(crate) fn state_at(&self, model: &Model, t: f64) -> State {
         let mut state = self.trajectories.state_at(t);

@@ -29,7 +29,7 @@ mod chattering;
 mod contact_state;
 mod curved;
 pub(super) mod detector;
-mod engine;
+pub(super) mod engine;
 mod impact;
 mod impacts;
 mod initial_contacts;

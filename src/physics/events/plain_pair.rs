@@ -48,6 +48,7 @@ impl PlainPair {
             normal,
             gap,
             reach,
+            velocity: one.v - two.v,
             v_n: pair_normal_velocity(x, one.v - two.v),
             // nothing presses them together: that is all that would be asked
             a_n: 0.0,

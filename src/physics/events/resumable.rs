@@ -6,6 +6,7 @@
 //! takes as long as it took then.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -41,7 +42,7 @@ enum Origin {
     /// As the model says.
     Model,
     /// From another method's state, or a resumed one.
-    State(Box<State>),
+    State(Arc<State>),
     /// Settings that change the trajectory have changed since: a continuation would have to know when.
     Lost,
 }
@@ -82,7 +83,7 @@ impl<D: Detector> Resumable<D> {
         }
         engine.begin_frames_at(end, settings);
         self.engine = repetition.engine;
-        self.origin = if origin == model.initial { Origin::Model } else { Origin::State(Box::new(origin)) };
+        self.origin = if origin == model.initial { Origin::Model } else { Origin::State(Arc::new(origin)) };
         true
     }
 
@@ -95,7 +96,7 @@ impl<D: Detector> Resumable<D> {
 impl<D: Detector> Engine for Resumable<D> {
     fn begin(model: &Model, settings: Settings, state: State, log: &mut Log) -> Resumable<D> {
         let engine = EventDriven::begin(model, settings, &state, log);
-        let origin = if state == model.initial { Origin::Model } else { Origin::State(Box::new(state)) };
+        let origin = if state == model.initial { Origin::Model } else { Origin::State(Arc::new(state)) };
         Resumable { engine, origin, resumes: None, repetition: None }
     }
 
@@ -144,5 +145,17 @@ impl<D: Detector> Engine for Resumable<D> {
 
     fn hand_over(&self, model: &Model) -> State {
         self.at(model, self.time())
+    }
+
+    fn keep(&self) -> Resumable<D> {
+        let repetition = self.repetition.clone();
+        Resumable { engine: self.engine.keep(), origin: self.origin.clone(), resumes: self.resumes.clone(), repetition }
+    }
+
+    fn wake(&mut self, _: &Model) {}
+
+    fn bytes(&self) -> usize {
+        let repetition = self.repetition.as_ref().map_or(0, |repetition| repetition.engine.bytes());
+        self.engine.bytes() + repetition + self.resumes.as_ref().map_or(0, State::bytes)
     }
 }

@@ -225,6 +225,27 @@ impl Trajectories {
         self.accelerations[i] = a;
     }
 
+    /// A copy of which states from `time` (s) on can be read, and none before.
+    pub(crate) fn since(&self, time: f64) -> Trajectories {
+        Trajectories {
+            now: self.now,
+            records: self.records.clone(),
+            time_scale: self.time_scale,
+            slots: self.slots.clone(),
+            common: self.common,
+            accelerations: self.accelerations.clone(),
+            past: self.past.iter().filter(|past| past.until > time).copied().collect(),
+        }
+    }
+
+    /// Memory that they take beside their own size, bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.records)
+            + size_of_val(&*self.slots)
+            + size_of_val(&*self.accelerations)
+            + size_of_val(&*self.past)
+    }
+
     /// A frame begins: states of earlier ones can no longer be read.
     pub(crate) fn forget_past(&mut self) {
         self.past.clear();

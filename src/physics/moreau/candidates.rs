@@ -70,6 +70,28 @@ impl Search {
         Search { found: Vec::new(), reach: vec![0.0; n], near: vec![0.0; n], far, cells, widest, stage: Stage::Done }
     }
 
+    /// A copy without memory: only how wide its cells are.
+    pub(super) fn kept(&self) -> Search {
+        Search {
+            found: Vec::new(),
+            reach: Vec::new(),
+            near: Vec::new(),
+            far: Vec::new(),
+            cells: None,
+            widest: self.widest,
+            stage: Stage::Done,
+        }
+    }
+
+    /// Gives a kept copy its memory back.
+    pub(super) fn wake(&mut self, model: &Model) {
+        let widest = self.widest;
+        *self = Search { widest, ..Search::new(model) };
+        if let Some(cells) = &mut self.cells {
+            *cells = Cells::new(&vec![widest; model.len()]);
+        }
+    }
+
     /// Begins anew with these reaches, m by sphere.
     pub(super) fn begin(&mut self, reach: impl Iterator<Item = f64>) {
         self.reach.clear();

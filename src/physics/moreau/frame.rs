@@ -310,7 +310,8 @@ impl Moreau {
     fn contact(&self, model: &Model, row: &Row) -> Contact {
         let (kind, a, b) = row.key;
         let touch = overlap::touch(model, &self.start.x, &self.end.x, row.key);
-        let v_b = if kind == Kind::Pair { self.end.v[b] } else { DVec3::ZERO };
+        let other = |v: &[DVec3]| if kind == Kind::Pair { v[b] } else { DVec3::ZERO };
+        let (before, after) = (self.start.v[a] - other(&self.start.v), other(&self.end.v));
         Contact {
             time: self.end.t,
             kind,
@@ -318,8 +319,9 @@ impl Moreau {
             b,
             point: touch.point,
             normal: touch.normal,
+            velocity: before,
             approach_speed: row.approach,
-            separation_speed: impact_law::normal_velocity(self.end.v[a], v_b, row.normal),
+            separation_speed: impact_law::normal_velocity(self.end.v[a], after, row.normal),
             impulse: row.impulse,
             degree: touch.degree,
             class: row.class,

@@ -8,12 +8,13 @@ use super::candidates::{Search, most_candidates};
 use super::contact_row::Row;
 use super::solver::Solver;
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::frame_contact::FrameContact;
 use crate::physics::impact_law;
 use crate::physics::log::Log;
 use crate::physics::method::{Engine, Progress, Until};
 use crate::physics::model::{Model, Settings};
-use crate::physics::overlap::{self, Finder};
-use crate::physics::state::{Stall, State, runaway};
+use crate::physics::overlap::Finder;
+use crate::physics::state::{Stall, StallKind, State, runaway};
 
 /// A contact that held in the last frame, and its impulse, N s.
 pub(super) type Carried = (Key, f64);
@@ -160,6 +161,36 @@ impl Engine for Moreau {
     fn hand_over(&self, _: &Model) -> State {
         self.end.clone()
     }
+
+    /// The frame's end and what held there; the start is a frame's inside, all else scratch.
+    fn keep(&self) -> Moreau {
+        Moreau {
+            settings: self.settings,
+            start: State::default(),
+            end: self.end.clone(),
+            free: Vec::new(),
+            solution: Vec::new(),
+            carried: self.carried.clone(),
+            search: self.search.kept(),
+            rows: Vec::new(),
+            sunk: Vec::new(),
+            solver: self.solver.kept(),
+            stage: Stage::Between,
+            step: self.step,
+        }
+    }
+
+    fn wake(&mut self, model: &Model) {
+        self.start = self.end.clone();
+        self.free = vec![DVec3::ZERO; model.len()];
+        self.solution = vec![DVec3::ZERO; model.len()];
+        self.search.wake(model);
+        self.sunk = vec![0.0; model.len()];
+    }
+
+    fn bytes(&self) -> usize {
+        self.end.bytes() + size_of_val(&*self.carried)
+    }
 }
 
 impl Moreau {
@@ -178,29 +209,12 @@ impl Moreau {
         log.follow_rests(|key| self.release(model, key));
     }
 
-    /// A contact as it stands at the end of the last frame, without a response yet.
+    /// A contact as it stands at the end of the last frame, with the class that the law gives it, without a response yet.
     pub(super) fn contact_now(&self, model: &Model, key: Key) -> Contact {
-        let (kind, a, b) = key;
-        let touch = overlap::touch(model, &self.end.x, &self.end.x, key);
-        let (v_b, a_b) = match kind {
-            Kind::Wall => (DVec3::ZERO, DVec3::ZERO),
-            Kind::Pair => (self.end.v[b], model.acceleration(b)),
-        };
-        let v_n = impact_law::normal_velocity(self.end.v[a], v_b, touch.normal);
-        let pressed = (model.acceleration(a) - a_b).dot(touch.normal) < 0.0;
-        Contact {
-            time: self.end.t,
-            kind,
-            a,
-            b,
-            point: touch.point,
-            normal: touch.normal,
-            approach_speed: -v_n,
-            separation_speed: v_n,
-            impulse: 0.0,
-            degree: touch.degree,
-            class: impact_law::classify(v_n, pressed, &model.law),
-        }
+        let FrameContact { contact, v_n, accelerations: [a, b] } =
+            FrameContact::new(model, &self.end.x, &self.end, key);
+        let pressed = (a - b).dot(contact.normal) < 0.0;
+        Contact { class: impact_law::classify(v_n, pressed, &model.law), ..contact }
     }
 
     pub(super) fn release(&self, model: &Model, key: Key) -> Contact {
@@ -230,12 +244,12 @@ impl Moreau {
              its radius.",
             dt * radii / ways
         );
-        Stall { time, kind: "step-too-large", reason }
+        Stall { time, kind: StallKind::StepTooLarge, reason }
     }
 
     pub(super) fn standstill(&self) -> Stall {
         let (time, dt) = (self.end.t, self.settings.dt);
         let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
-        Stall { time, kind: "step-too-small", reason }
+        Stall { time, kind: StallKind::StepTooSmall, reason }
     }
 }

@@ -111,16 +111,26 @@ impl Solver {
     pub(super) fn new(model: &Model) -> Solver {
         let least = model.masses.iter().copied().fold(f64::INFINITY, f64::min);
         let most = model.masses.iter().copied().fold(0.0, f64::max);
+        Solver::idle(model.is_empty() || most / least < UNLIKE_MASSES)
+    }
+
+    /// A solver without a problem, of masses that are alike enough for sweeping or not.
+    fn idle(alike: bool) -> Solver {
         Solver {
             bodies: Vec::new(),
             lines: Vec::new(),
             resorted: 0,
             gains: Vec::new(),
-            alike: model.is_empty() || most / least < UNLIKE_MASSES,
+            alike,
             stage: Stage::Done,
             converged: true,
             solved: 0,
         }
+    }
+
+    /// A copy without a problem.
+    pub(super) fn kept(&self) -> Solver {
+        Solver::idle(self.alike)
     }
 
     /// A new frame begins.

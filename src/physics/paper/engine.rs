@@ -91,6 +91,17 @@ impl Engine for Paper {
         state
     }
 
+    fn trial(&self, model: &Model, step: f64) -> Option<State> {
+        // a run that was kept between two frames knows the start of none
+        if self.trial.is_some() || self.start.t == self.end.t {
+            return None;
+        }
+        let mut state = self.start.clone();
+        forward(model, &self.kicks, &self.start, &mut state, step);
+        state.t += step;
+        Some(state)
+    }
+
     fn transient(&self, model: &Model) -> Vec<DVec3> {
         let mut impulses = vec![DVec3::ZERO; model.len()];
         for kick in self.pending().list() {
@@ -109,5 +120,36 @@ impl Engine for Paper {
             state.v[kick.sphere] += kick.impulse * model.inverse_masses[kick.sphere];
         }
         state
+    }
+
+    /// The frame's end, what acts next, and the overlaps there; the start is a frame's inside, all else scratch.
+    fn keep(&self) -> Paper {
+        Paper {
+            settings: self.settings,
+            start: State::default(),
+            end: self.end.clone(),
+            kicks: Kicks::none(0),
+            next: self.next.kept(),
+            finder: self.finder.kept(),
+            allowed: Vec::new(),
+            trial: None,
+            stage: Stage::Complete,
+            residue: self.residue,
+            search: self.search,
+            probes: Vec::new(),
+            step: self.step,
+            watch: self.watch,
+        }
+    }
+
+    fn wake(&mut self, model: &Model) {
+        self.start = self.end.clone();
+        self.kicks = Kicks::none(model.len());
+        self.next.wake(model.len());
+        self.finder.wake(model);
+    }
+
+    fn bytes(&self) -> usize {
+        self.end.bytes() + size_of_val(self.next.list()) + size_of_val(&*self.finder.found)
     }
 }

@@ -32,6 +32,16 @@ impl Kicks {
         Kicks { list: Vec::new(), place: vec![NOWHERE; spheres] }
     }
 
+    /// A copy of the list alone.
+    pub(super) fn kept(&self) -> Kicks {
+        Kicks { list: self.list.clone(), place: Vec::new() }
+    }
+
+    /// Makes a kept list ready for the kicks of so many spheres.
+    pub(super) fn wake(&mut self, spheres: usize) {
+        self.place = vec![NOWHERE; spheres];
+    }
+
     pub(super) fn list(&self) -> &[Kick] {
         &self.list
     }

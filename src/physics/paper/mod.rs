@@ -45,7 +45,7 @@ mod watchdog;
 use super::method::Description;
 use super::model::Method;
 
-pub(super) use run::Paper;
+pub(super) use run::{Paper, SLACK};
 
 /// What `paper` is.
 pub(super) const DESCRIPTION: Description = Description {

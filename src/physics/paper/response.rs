@@ -1,21 +1,32 @@
 //! The response: transient impulses and support forces for the next frame (source: paper 2.4).
 
-use glam::DVec3;
-
 use super::run::Paper;
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::frame_contact::FrameContact;
 use crate::physics::impact_law;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-use crate::physics::overlap::{self, Overlap};
+use crate::physics::overlap::Overlap;
 
-/// A contact as the law sees it.
+/// A contact at the end of a frame, as the law sees it.
 struct Meeting {
-    at: Key,
-    touch: overlap::Touch,
+    contact: Contact,
     v_n: f64,
     /// What presses the first and the second sphere against the contact, m/s².
     press: [f64; 2],
+}
+
+impl Meeting {
+    /// Whether anything presses the bodies together.
+    fn is_pressed(&self) -> bool {
+        self.press != [0.0; 2]
+    }
+
+    /// The contact with its class and the impulse along its normal (N s).
+    fn answered(&self, model: &Model, class: Class, impulse: f64) -> Contact {
+        let separation_speed = impact_law::separation_speed(self.v_n, class, self.contact.kind, &model.law);
+        Contact { class, impulse, separation_speed, ..self.contact }
+    }
 }
 
 impl Paper {
@@ -30,7 +41,7 @@ impl Paper {
             // A gap of exactly 0 is a contact in flight only as long as it rests; at load it is one.
             if degree > 0.0 || self.end.t == 0.0 || class == Class::Rest {
                 let impulse = self.answer(model, &meeting, class);
-                let contact = self.row(model, &meeting, class, impulse);
+                let contact = meeting.answered(model, class, impulse);
                 if class == Class::Collide {
                     log.event(contact);
                 }
@@ -38,26 +49,20 @@ impl Paper {
             }
         }
         self.next.sort();
-        log.follow_rests(|key| self.row(model, &self.meeting(model, key), Class::Release, 0.0));
+        log.follow_rests(|key| self.meeting(model, key).answered(model, Class::Release, 0.0));
     }
 
-    fn meeting(&self, model: &Model, at: Key) -> Meeting {
-        let (kind, a, b) = at;
-        let touch = overlap::touch(model, &self.start.x, &self.end.x, at);
-        let n = touch.normal;
-        let (v_b, press_b) = match kind {
-            Kind::Wall => (DVec3::ZERO, 0.0),
-            Kind::Pair => (self.end.v[b], model.acceleration(b).dot(n).max(0.0)),
-        };
-        let v_n = impact_law::normal_velocity(self.end.v[a], v_b, n);
-        Meeting { at, touch, v_n, press: [(-model.acceleration(a).dot(n)).max(0.0), press_b] }
+    fn meeting(&self, model: &Model, key: Key) -> Meeting {
+        let at_end = FrameContact::new(model, &self.start.x, &self.end, key);
+        let FrameContact { contact, v_n, accelerations: [a, b] } = at_end;
+        let n = contact.normal;
+        Meeting { contact, v_n, press: [(-a.dot(n)).max(0.0), b.dot(n).max(0.0)] }
     }
 
     /// Adds the response to what acts in the next frame; the impulse along the normal, N s: at rest what stops the
     /// approach and what the support force would give over the frame that ended here.
     fn answer(&mut self, model: &Model, meeting: &Meeting, class: Class) -> f64 {
-        let Meeting { at: (kind, a, b), touch, v_n, press } = meeting;
-        let (a, b, n) = (*a, *b, touch.normal);
+        let Meeting { contact: Contact { kind, a, b, normal: n, .. }, v_n, press } = *meeting;
         if class == Class::Leave {
             return 0.0;
         }
@@ -68,7 +73,7 @@ impl Paper {
                 impulse.dot(n)
             }
             Kind::Pair => {
-                let impulse = impact_law::pair_impulse(model, a, b, *v_n, class);
+                let impulse = impact_law::pair_impulse(model, a, b, v_n, class);
                 self.next.of(a).impulse += n * impulse;
                 self.next.of(b).impulse -= n * impulse;
                 impulse
@@ -78,35 +83,17 @@ impl Paper {
             return along;
         }
         self.next.of(a).support += n * press[0];
-        if *kind == Kind::Pair {
+        if kind == Kind::Pair {
             self.next.of(b).support -= n * press[1];
         }
         along + press[0] * model.masses[a] * self.step
-    }
-
-    fn row(&self, model: &Model, meeting: &Meeting, class: Class, impulse: f64) -> Contact {
-        let Meeting { at: (kind, a, b), touch, v_n, .. } = *meeting;
-        Contact {
-            time: self.end.t,
-            kind,
-            a,
-            b,
-            point: touch.point,
-            normal: touch.normal,
-            approach_speed: -v_n,
-            separation_speed: impact_law::separation_speed(v_n, class, kind, &model.law),
-            impulse,
-            degree: touch.degree,
-            class,
-        }
     }
 }
 
 /// What the printed law makes of a contact: 0 < v_n ≤ rest_speed rests too, if something presses.
 fn class(model: &Model, meeting: &Meeting) -> Class {
-    let pressed = meeting.press != [0.0; 2];
-    match impact_law::classify(meeting.v_n, pressed, &model.law) {
-        Class::Leave if pressed && meeting.v_n <= model.law.rest_speed => Class::Rest,
+    match impact_law::classify(meeting.v_n, meeting.is_pressed(), &model.law) {
+        Class::Leave if meeting.is_pressed() && meeting.v_n <= model.law.rest_speed => Class::Rest,
         class => class,
     }
 }

@@ -8,7 +8,7 @@ use crate::physics::overlap::{Finder, Overlap};
 use crate::physics::state::State;
 
 /// Accepted beyond the tolerance, dimensionless, as the paper prints it.
-const SLACK: f64 = 1e-4;
+pub(in crate::physics) const SLACK: f64 = 1e-4;
 
 /// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
 const LARGEST_TOLERANCE: f64 = 0.5;

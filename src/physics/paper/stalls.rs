@@ -5,7 +5,7 @@ use super::watchdog::Watch;
 use crate::physics::contact::{Class, Contact, Kind};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-use crate::physics::state::{Stall, State, runaway};
+use crate::physics::state::{Stall, StallKind, State, runaway};
 
 /// Frames cut short, beside one per sphere, after which the watchdog compares.
 const PATIENCE: u64 = 1000;
@@ -34,7 +34,7 @@ impl Paper {
     fn standstill(&self) -> Stall {
         let (time, dt) = (self.end.t, self.settings.dt);
         let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
-        Stall { time, kind: "step-too-small", reason }
+        Stall { time, kind: StallKind::StepTooSmall, reason }
     }
 
     /// The frame in which a sphere leaves the range of numbers is given up before it is shown.
@@ -54,8 +54,10 @@ impl Paper {
     fn shrinking(&self, log: &Log) -> Stall {
         let bounces = log.contacts.iter().any(|contact| contact.class == Class::Collide);
         let (kind, cause) = match bounces {
-            true => ("slow-bounce", "slow impacts come back before they have left the overlap that is accepted"),
-            false => ("resting-contact", "support given contact by contact cannot hold a wedge or a stack"),
+            true => {
+                (StallKind::SlowBounce, "slow impacts come back before they have left the overlap that is accepted")
+            }
+            false => (StallKind::RestingContact, "support given contact by contact cannot hold a wedge or a stack"),
         };
         let mut bodies: Vec<String> = log.contacts.iter().take(NAMED).map(names).collect();
         if log.contacts.len() > NAMED {

@@ -4,6 +4,7 @@ use super::{
     super::paste::{ENDS, KEPT},
     *,
 };
+use crate::app::{Gesture, Mouse};
 use proptest::{prelude::ProptestConfig, test_runner::RngSeed};
 
 /// A decoder fed piece by piece, with silence as long as the escape time-out between.
@@ -109,7 +110,7 @@ fn strings_and_replies_press_no_key_at_once_and_byte_by_byte() {
             assert_eq!(end(torn(&pieces)), expected, "{string:?} byte by byte");
         }
     }
-    for reply in ["\x1b[?2026;2$y", "\x1b[0n", "\x1b[?62;22c", "\x1b[99z", "\x1b[24;80R", "\x1b[Mq!!", "\x1b[<0;1;1M"] {
+    for reply in ["\x1b[?2026;2$y", "\x1b[0n", "\x1b[?62;22c", "\x1b[99z", "\x1b[24;80R", "\x1b[Mq!!"] {
         assert_eq!(decode(format!("{reply}?").as_bytes()), keys(&[Key::char('?')]), "{reply:?}");
         for at in 2..reply.len() {
             let (begun, rest) = reply.as_bytes().split_at(at);
@@ -198,4 +199,15 @@ proptest::proptest! {
     fn no_payload_presses_a_key(kind in "[PX^_\\]]", payload in "[ -~é]{0,40}", last in "\x1b\\\\|\x18|\x1a") {
         proptest::prop_assert_eq!(decode(format!("\x1b{kind}{payload}{last}").as_bytes()), []);
     }
+}
+
+#[test]
+fn a_report_of_the_mouse_is_one_however_it_is_torn() {
+    let report = b"\x1b[<0;12;7M";
+    let pressed = Input::Mouse(Mouse { gesture: Gesture::Press, column: 11, row: 6 });
+    for at in 3..report.len() {
+        let (first, rest) = report.split_at(at);
+        assert_eq!(end(torn(&[first, rest])), std::slice::from_ref(&pressed), "torn after {at}");
+    }
+    assert_eq!(end(torn(&[b"\x1b[<0;1", b"q"])).last(), Some(&Input::Key(Key::char('q'))), "given up");
 }

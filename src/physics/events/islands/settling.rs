@@ -13,7 +13,7 @@ use crate::physics::events::rest_reason::RestReason;
 use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-use crate::physics::state::Stall;
+use crate::physics::state::{Stall, StallKind};
 use crate::physics::support::{Fate, islands};
 use crate::physics::wall::{Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::{part_ahead, part_end};
@@ -322,7 +322,7 @@ impl Mechanics {
             keys[0].1,
             self.trajectories.now
         );
-        Stall { time: self.trajectories.now, kind: "resting-contact", reason }
+        Stall { time: self.trajectories.now, kind: StallKind::RestingContact, reason }
     }
 }
 

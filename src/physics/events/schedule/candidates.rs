@@ -25,6 +25,11 @@ impl Candidates {
         Candidates { slots: vec![0; ROOM], count: 0, batches: Box::new([PairBatch::NEVER; BATCHES]) }
     }
 
+    /// Memory that they take, bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<Candidates>() + size_of_val(&*self.slots) + size_of_val(&*self.batches)
+    }
+
     /// Their slots.
     #[inline]
     pub(crate) fn slots(&self) -> &[u32] {

@@ -116,6 +116,12 @@ impl Cells {
         cells
     }
 
+    /// Memory that it takes, bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        let notes = [&self.next, &self.loose, &self.starts, &self.walls].map(|notes| size_of_val(&**notes));
+        size_of::<Cells>() + size_of_val(&*self.table) + notes.iter().sum::<usize>()
+    }
+
     /// How it was laid out.
     pub(crate) fn layout(&self) -> Layout {
         Layout { origin: self.origin, edge: self.edge, size: self.size, widest: self.widest }

@@ -50,6 +50,12 @@ impl<D> Schedule<D> {
         }
     }
 
+    /// Memory that it takes beside its own size, bytes, as near as its parts tell.
+    pub(crate) fn bytes(&self) -> usize {
+        let cells = self.cells.as_ref().map_or(0, |cells| cells.bytes());
+        self.queue.bytes() + self.candidates.bytes() + cells
+    }
+
     /// The earliest event (s) and the slot it is entered for; slot 0 if nothing ever happens.
     #[inline]
     pub(crate) fn take_next(&mut self, trajectories: &Trajectories, rests: &Rests) -> (f64, usize) {

@@ -48,6 +48,11 @@ impl Queue {
         }
     }
 
+    /// Memory that it takes beside its own size, bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.blocks) + size_of_val(&*self.holders)
+    }
+
     /// Sets the next event at a slot to `time`, s.
     #[inline]
     pub(crate) fn set(&mut self, slot: usize, time: f64) {

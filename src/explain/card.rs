@@ -1,0 +1,217 @@
+//! One contact taken apart.
+
+use glam::DVec3;
+
+use super::approach;
+use super::line::Line;
+use crate::format::{digits, number, setting, significant};
+use crate::snapshot::{Class, Contact, Kind, Snapshot};
+
+/// Digits after the first of what is measured.
+const DIGITS: usize = 4;
+
+/// A formula's result may differ from what the method did by this part, which is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// One contact taken apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Card {
+    /// The two bodies, e.g. `#0 left – wall 2`.
+    pub bodies: String,
+    /// What the impact law made of it.
+    pub class: Class,
+    /// What there is to say, the most asked for first.
+    pub lines: Vec<Line>,
+}
+
+/// The card of a snapshot's contact of this index, if it has one. `between` stands between the bodies.
+pub fn card(snapshot: &Snapshot, index: usize, between: &str) -> Option<Card> {
+    let contact = snapshot.contacts.get(index)?;
+    let of = Of { snapshot, contact, index };
+    let lines = [of.why(), of.place(), of.speeds(), of.impulse(), of.energy(), of.depth(), of.acts(), of.approach()];
+    Some(Card { bodies: of.bodies(between), class: contact.class, lines: lines.into_iter().flatten().collect() })
+}
+
+/// A contact and the snapshot it is of.
+struct Of<'a> {
+    snapshot: &'a Snapshot,
+    contact: &'a Contact,
+    index: usize,
+}
+
+impl Of<'_> {
+    fn bodies(&self, between: &str) -> String {
+        let Contact { kind, a, b, .. } = *self.contact;
+        match kind {
+            Kind::Wall => format!("{}{between}wall {b}", self.sphere(a)),
+            Kind::Pair => format!("{}{between}{}", self.sphere(a), self.sphere(b)),
+        }
+    }
+
+    fn sphere(&self, i: usize) -> String {
+        match self.snapshot.stage.names.get(i) {
+            Some(Some(name)) => format!("#{i} {name}"),
+            _ => format!("#{i}"),
+        }
+    }
+
+    fn mass(&self, i: usize) -> f64 {
+        self.snapshot.stage.masses.get(i).copied().unwrap_or(f64::NAN)
+    }
+
+    /// What an impulse along the normal changes v_n by is this times as much, kg: m, or m₁ m₂ / (m₁ + m₂).
+    fn effective_mass(&self) -> f64 {
+        let Contact { kind, a, b, .. } = *self.contact;
+        match kind {
+            Kind::Wall => self.mass(a),
+            Kind::Pair => 1.0 / (1.0 / self.mass(a) + 1.0 / self.mass(b)),
+        }
+    }
+
+    fn restitution(&self) -> f64 {
+        let law = &self.snapshot.stage.law;
+        if self.contact.kind == Kind::Wall { law.wall_restitution } else { law.restitution }
+    }
+
+    /// What is left of the tangential velocity.
+    fn tangential(&self) -> f64 {
+        let rubs = self.contact.class == Class::Collide && self.contact.kind == Kind::Wall;
+        if rubs { self.snapshot.stage.law.tangential } else { 1.0 }
+    }
+
+    /// The relative velocity across the normal before the response, m/s.
+    fn slip(&self) -> f64 {
+        let Contact { velocity, normal, .. } = *self.contact;
+        (velocity - normal * velocity.dot(normal)).length()
+    }
+
+    /// Which rule gave the class.
+    fn why(&self) -> Vec<Line> {
+        let (v_n, limit) = (-self.contact.approach_speed, self.snapshot.stage.law.rest_speed);
+        let (speed, limit) = (measured(v_n), number(-limit));
+        let reason = self.snapshot.rest_reasons.get(self.index).copied().flatten();
+        let text = match (self.contact.class, reason) {
+            (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s: it collides"),
+            (Class::Rest, Some(reason)) => format!("it rests: {}", reason.words()),
+            (Class::Rest, None) => {
+                format!("v_n = {speed} m/s ≥ −rest_speed = {limit} m/s, and it is pressed: it rests")
+            }
+            (Class::Leave, _) => format!("v_n = {speed} m/s: it leaves, nothing is done"),
+            (Class::Release, _) => format!("v_n = {speed} m/s, and nothing presses it: its rest ends"),
+        };
+        vec![Line::new("why", text)]
+    }
+
+    fn place(&self) -> Vec<Line> {
+        let Contact { time, point, normal, .. } = *self.contact;
+        vec![
+            Line::new("time", format!("{} s", number(time))),
+            Line::new("point", format!("{} m", vector(point))),
+            Line::new("normal", vector(normal)),
+        ]
+    }
+
+    fn speeds(&self) -> Vec<Line> {
+        let Contact { approach_speed, separation_speed, .. } = *self.contact;
+        let slip = self.slip();
+        let change = |before: f64, after: f64| format!("{} → {} m/s", measured(before), measured(after));
+        let across = change(slip, slip * self.tangential());
+        vec![Line::new("v_n", change(-approach_speed, separation_speed)), Line::new("v_t", across)]
+    }
+
+    /// The impulse: of an impact the formula with its numbers, of a rest the force it stands for.
+    fn impulse(&self) -> Vec<Line> {
+        let Contact { class, impulse, .. } = *self.contact;
+        let result = format!("{} N s", measured(impulse));
+        match class {
+            Class::Collide => vec![Line::new("J", format!("{} = {result}", self.formula()))],
+            Class::Rest if impulse > 0.0 && self.snapshot.step > 0.0 => {
+                let force = measured(impulse / self.snapshot.step);
+                vec![Line::new(
+                    "support",
+                    format!("{force} N, that is {result} in this frame of {} s", number(self.snapshot.step)),
+                )]
+            }
+            Class::Rest => vec![Line::new("support", "none: it touches and carries nothing")],
+            Class::Leave | Class::Release => Vec::new(),
+        }
+    }
+
+    /// J as the law has it, with its numbers; where the method's J is another, what that is.
+    fn formula(&self) -> String {
+        let Contact { kind, a, b, approach_speed, separation_speed, impulse, .. } = *self.contact;
+        let (e, mass) = (self.restitution(), self.effective_mass());
+        let is = |one: f64, other: f64| (one - other).abs() <= ROUNDING * one.abs().max(other.abs());
+        let masses = match kind {
+            Kind::Wall => format!("{} kg", number(mass)),
+            Kind::Pair => format!("1/(1/{} + 1/{}) kg", number(self.mass(a)), number(self.mass(b))),
+        };
+        let (before, after) = (measured(approach_speed), measured(separation_speed));
+        if is(impulse, (1.0 + e) * mass * approach_speed) {
+            format!("(1 + {}) × {masses} × {before} m/s", number(e))
+        } else if is(impulse, mass * (approach_speed + separation_speed)) {
+            format!("{masses} × ({before} + {after}) m/s")
+        } else {
+            "solved together with the frame's other contacts".into()
+        }
+    }
+
+    /// What the contact takes from the kinetic energy.
+    fn energy(&self) -> Vec<Line> {
+        let Contact { class, approach_speed, separation_speed, .. } = *self.contact;
+        if class != Class::Collide {
+            return Vec::new();
+        }
+        let (slip, left) = (self.slip(), self.tangential());
+        let normal =
+            0.5 * self.effective_mass() * (approach_speed * approach_speed - separation_speed * separation_speed);
+        let across = 0.5 * self.mass(self.contact.a) * slip * slip * (1.0 - left * left);
+        let rubbed = if across > 0.0 { format!(", {} J along the wall", measured(across)) } else { String::new() };
+        vec![Line::new("lost", format!("{} J along the normal{rubbed}", measured(normal)))]
+    }
+
+    /// How deep, and why that was accepted.
+    fn depth(&self) -> Vec<Line> {
+        let degree = self.contact.degree;
+        let (Some(slack), tolerance) = (self.snapshot.slack, self.snapshot.tolerance.min(0.5)) else {
+            return vec![Line::new("overlap", format!("{} of the radius", digits(degree, 2)))];
+        };
+        let limit = format!("tolerance + slack = {} + {}", setting(tolerance), setting(slack));
+        let text = if degree <= tolerance + slack {
+            format!("{} of the radius ≤ {limit}: accepted", digits(degree, 2))
+        } else {
+            format!(
+                "{} of the radius > {limit}: it began the frame as deep, or no time is left to halve",
+                digits(degree, 2)
+            )
+        };
+        vec![Line::new("overlap", text)]
+    }
+
+    /// The polynomial whose root is the contact's time, where the method solves one.
+    fn approach(&self) -> Vec<Line> {
+        let approach = self.snapshot.approaches.get(self.index).copied().flatten();
+        approach
+            .filter(|_| self.snapshot.method == "exact")
+            .map(|approach| approach::lines(&approach))
+            .unwrap_or_default()
+    }
+
+    /// When the response acts, if not at once.
+    fn acts(&self) -> Vec<Line> {
+        let answered = matches!(self.contact.class, Class::Collide | Class::Rest);
+        if self.snapshot.slack.is_none() || !answered {
+            return Vec::new();
+        }
+        vec![Line::new("acts", "over the next frame: the velocities shown are still those before it")]
+    }
+}
+
+fn measured(value: f64) -> String {
+    significant(if value == 0.0 { 0.0 } else { value }, DIGITS)
+}
+
+fn vector(v: DVec3) -> String {
+    let [x, y, z] = [v.x, v.y, v.z].map(|value| significant(if value == 0.0 { 0.0 } else { value }, DIGITS));
+    format!("({x}, {y}, {z})")
+}

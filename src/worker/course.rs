@@ -1,0 +1,437 @@
+//! A run that one can go back in: the simulation, what is kept of its past, and where it had come to.
+//!
+//! Going back begins with the nearest keyframe before, and does again what was done from there, changes of settings
+//! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
+//! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
+
+use super::{
+    job::Job,
+    keyframes::{Keyframes, MOST_FRAMES, NOTICED, RECENT},
+};
+use crate::{
+    physics::{Contact, Progress, Simulation, Stall, Until},
+    scene::{Method, Settings},
+    snapshot::Kept,
+};
+
+/// Changes that are remembered: more than a hand makes in hours. When there are more, the history begins anew.
+const MOST_CHANGES: usize = 1 << 16;
+
+/// How long a scout goes on before commands are looked at again, s.
+const SCOUTING: f64 = 2e-3;
+
+/// A change of settings.
+#[derive(Debug, Clone, Copy)]
+struct Change {
+    /// Frames completed then, and the time, s.
+    frame: u64,
+    time: f64,
+    /// Whether the next frame had been tried, and could not be.
+    stalled: bool,
+    settings: Settings,
+}
+
+/// A run that is done again while nothing else is to do, to be kept near the frame that is shown.
+#[derive(Debug)]
+struct Scout {
+    run: Simulation,
+    changes: usize,
+    /// The frame to be kept, and the one that is shown.
+    target: u64,
+    shown: u64,
+    /// Work so far, s.
+    work: f64,
+}
+
+/// The run where it had come to, while an earlier frame is shown.
+#[derive(Debug)]
+struct Newest {
+    simulation: Simulation,
+    stall: Option<Stall>,
+    whole: bool,
+}
+
+/// A run and its past.
+#[derive(Debug)]
+pub(super) struct Course {
+    job: Job,
+    simulation: Simulation,
+    stall: Option<Stall>,
+    /// Whether no frame is in progress.
+    whole: bool,
+    /// Settings that wait for the end of the frame in progress.
+    waiting: Option<Settings>,
+    keyframes: Keyframes,
+    changes: Vec<Change>,
+    /// How many of the changes are in the simulation.
+    changed: usize,
+    /// Whether the run can be begun again, with all its changes.
+    from_start: bool,
+    /// Impacts at its beginning.
+    first_impacts: u64,
+    newest: Option<Box<Newest>>,
+    /// The earlier frame that the run is on its way to from a keyframe, and the work since that or the one kept last, s.
+    toward: Option<(u64, f64)>,
+    scout: Option<Box<Scout>>,
+    /// The frame that was shown when a scout came home last.
+    scouted: Option<u64>,
+}
+
+impl Course {
+    /// The job's run at t = 0.
+    pub(super) fn new(job: Job) -> Course {
+        let simulation = begin(&job);
+        let mut keyframes = Keyframes::default();
+        keyframes.keep(&simulation, 0, || 0.0);
+        Course {
+            first_impacts: simulation.tallies().impacts,
+            job,
+            simulation,
+            stall: None,
+            whole: true,
+            waiting: None,
+            keyframes,
+            changes: Vec::new(),
+            changed: 0,
+            from_start: true,
+            newest: None,
+            toward: None,
+            scout: None,
+            scouted: None,
+        }
+    }
+
+    /// The job.
+    pub(super) fn job(&self) -> &Job {
+        &self.job
+    }
+
+    /// The run as it is shown.
+    pub(super) fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// What has happened since the last call.
+    pub(super) fn take_events(&mut self) -> Vec<Contact> {
+        self.simulation.take_events()
+    }
+
+    /// Why it cannot go on, if it cannot.
+    pub(super) fn stall(&self) -> Option<&Stall> {
+        self.stall.as_ref()
+    }
+
+    /// What it is, or will be from the next frame on, solved with.
+    pub(super) fn settings(&self) -> Settings {
+        self.waiting.unwrap_or(self.simulation.settings())
+    }
+
+    /// Time at the end of the last frame, s.
+    pub(super) fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// Impacts so far.
+    pub(super) fn impacts(&self) -> u64 {
+        self.simulation.tallies().impacts
+    }
+
+    /// Frames completed.
+    pub(super) fn frame(&self) -> u64 {
+        self.simulation.tallies().frames
+    }
+
+    /// Whether later frames than the one shown are kept.
+    pub(super) fn is_past(&self) -> bool {
+        self.newest.is_some()
+    }
+
+    /// The newest frame and its time, s.
+    pub(super) fn newest(&self) -> (u64, f64) {
+        let run = self.newest.as_ref().map_or(&self.simulation, |newest| &newest.simulation);
+        (run.tallies().frames, run.time())
+    }
+
+    /// The first frame that can be gone back to, its time, s, and the impacts until then.
+    pub(super) fn oldest(&self) -> (u64, f64, u64) {
+        let first = self.keyframes.first().map(|kept| (kept.frame, kept.time, kept.impacts));
+        match first {
+            _ if self.from_start => (0, 0.0, self.first_impacts),
+            Some(first) => first,
+            None => (self.newest().0, self.newest().1, u64::MAX),
+        }
+    }
+
+    /// What of the run can be gone to.
+    pub(super) fn kept(&self) -> Kept {
+        let (newest, until) = self.newest();
+        let oldest = self.oldest();
+        let (oldest, from) = self.keyframes.front().unwrap_or((oldest.0, oldest.1));
+        Kept { oldest, from, newest, until, is_past: self.is_past() }
+    }
+
+    /// From here on, or from the end of the frame in progress, other settings; whether they wait for that. The run is
+    /// at its newest frame.
+    pub(super) fn set(&mut self, settings: Settings) -> bool {
+        if !self.whole && self.stall.is_none() {
+            self.waiting = Some(settings);
+            return true;
+        }
+        self.change(settings);
+        false
+    }
+
+    /// Makes a change where the run is, and notes it.
+    fn change(&mut self, settings: Settings) {
+        if self.changes.len() >= MOST_CHANGES {
+            self.begin_anew();
+        }
+        let (frame, time) = (self.frame(), self.time());
+        let stalled = self.stall.is_some();
+        self.changes.push(Change { frame, time, stalled, settings });
+        self.apply(settings);
+        if frame == 0 {
+            self.first_impacts = self.simulation.tallies().impacts;
+        }
+    }
+
+    /// Makes the change that comes next.
+    fn apply(&mut self, settings: Settings) {
+        let before = self.simulation.settings().method;
+        // a frame that cannot be is given up, but by a run of events that goes on by the same method
+        let open = before == settings.method && matches!(before, Method::Exact | Method::Swept);
+        self.whole = self.whole || !open;
+        self.simulation.set_settings(settings);
+        (self.stall, self.waiting) = (None, None);
+        self.changed += 1;
+    }
+
+    /// Goes on: one call of [`Simulation::advance`] to the goal, or to a frame before it where there is something to do.
+    pub(super) fn advance(&mut self, until: Until, work: u64) -> Progress {
+        if self.is_past() {
+            return self.replay(until, work);
+        }
+        if let Until::Time(t) = until
+            && !self.simulation.counts_frames_to(t)
+        {
+            self.begin_anew(); // frames are as long as this goal makes them: they could not be found again
+        }
+        let waits = self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
+        let progress = self.simulation.advance(if waits { Until::Frame } else { until }, work.min(self.most_work()));
+        self.whole = progress == Progress::Reached;
+        if let Progress::Stalled(stall) = &progress {
+            self.stall = Some(stall.clone());
+        }
+        match (self.waiting, &progress) {
+            (Some(settings), Progress::Reached) => self.change(settings),
+            (Some(settings), Progress::Stalled(_)) => {
+                self.change(settings);
+                return Progress::Yielded; // tried again
+            }
+            _ => {}
+        }
+        progress
+    }
+
+    /// Takes note that the last advance took so long, s, and keeps the frame if it is time to; `clock` tells the time, s.
+    pub(super) fn note_work(&mut self, seconds: f64, clock: impl Fn() -> f64) {
+        if self.is_past() {
+            return self.keep_on_the_way(seconds);
+        }
+        self.keyframes.note_work(seconds);
+        if self.whole && self.keyframes.is_due(self.frame()) {
+            self.keyframes.keep(&self.simulation, self.changed, clock);
+        }
+    }
+
+    /// Keeps what comes shortly before the frame that the run is on its way to: the next step back is quick then.
+    fn keep_on_the_way(&mut self, seconds: f64) {
+        let frame = self.frame();
+        let Some((target, work)) = &mut self.toward else { return };
+        *work += seconds;
+        if self.whole && frame < *target && frame + RECENT >= *target && *work > NOTICED {
+            self.keyframes.insert(&self.simulation, self.changed, std::mem::take(work));
+        }
+    }
+
+    /// Whether a call may do less than so many units of work.
+    pub(super) fn limits(&self, work: u64) -> bool {
+        work > self.most_work()
+    }
+
+    /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
+    /// `work`; whether there is more to do. `clock` tells the time, s.
+    pub(super) fn scout(&mut self, work: u64, clock: impl Fn() -> f64) -> bool {
+        let shown = self.frame();
+        let Some(scout) = self.scout.as_mut().filter(|scout| scout.shown == shown) else {
+            self.scout = self.send_scout(shown);
+            return self.scout.is_some();
+        };
+        let start = clock();
+        let mut progress = Progress::Reached;
+        while progress == Progress::Reached && scout.run.tallies().frames < scout.target && clock() - start < SCOUTING {
+            progress = scout.run.advance(Until::Frame, work);
+        }
+        scout.run.take_events();
+        scout.work += clock() - start;
+        let there = scout.run.tallies().frames >= scout.target;
+        if !there && !matches!(progress, Progress::Stalled(_)) {
+            return true;
+        }
+        self.scouted = Some(shown);
+        if let Some(scout) = self.scout.take().filter(|_| there) {
+            self.keyframes.insert(&scout.run, scout.changes, scout.work);
+        }
+        false
+    }
+
+    fn send_scout(&self, shown: u64) -> Option<Box<Scout>> {
+        let kept = self.keyframes.lacking_before(shown).filter(|_| self.scouted != Some(shown))?;
+        let target = shown - RECENT;
+        let change = self.changes.get(kept.changes).map_or(u64::MAX, |change| change.frame);
+        let scout = || Scout { run: kept.run(), changes: kept.changes, target, shown, work: 0.0 };
+        (change > target).then(|| Box::new(scout()))
+    }
+
+    /// Units of work in which no more frames can pass than a replay may have to look at.
+    fn most_work(&self) -> u64 {
+        MOST_FRAMES.saturating_mul(self.simulation.model().len().max(1) as u64)
+    }
+
+    /// Does again what was done from here on, up to the goal or the next change.
+    fn replay(&mut self, until: Until, work: u64) -> Progress {
+        if let Some(change) = self.due() {
+            // it was made when the next frame had turned out to be impossible
+            if self.simulation.advance(Until::Frame, work) == Progress::Yielded {
+                return Progress::Yielded;
+            }
+            self.whole = false;
+            self.apply(change.settings);
+        } else {
+            let next = self.changes.get(self.changed).map_or(f64::INFINITY, |change| change.time);
+            let until = match until {
+                Until::Time(t) if t.min(next) > self.simulation.time() => Until::Time(t.min(next)),
+                _ => Until::Frame,
+            };
+            let progress = self.simulation.advance(until, work);
+            self.whole = progress == Progress::Reached;
+            if progress == Progress::Yielded {
+                return progress;
+            }
+        }
+        self.catch_up();
+        Progress::Reached
+    }
+
+    /// Makes the changes that were made at this frame before the next was tried; takes up the newest frame if this is it.
+    fn catch_up(&mut self) {
+        if self.newest.as_ref().is_some_and(|newest| newest.simulation.tallies().frames <= self.frame()) {
+            return self.take_up();
+        }
+        while let Some(change) = self.changes.get(self.changed).filter(|c| c.frame <= self.frame() && !c.stalled) {
+            self.apply(change.settings);
+        }
+    }
+
+    /// The change that must be made before the next frame, once that has been tried.
+    fn due(&self) -> Option<Change> {
+        self.changes.get(self.changed).copied().filter(|change| change.frame <= self.frame())
+    }
+
+    /// Whether the run is at the end of `frame`, all changes that were made there included.
+    pub(super) fn is_at(&self, frame: u64) -> bool {
+        self.frame() == frame && (!self.is_past() || self.due().is_none())
+    }
+
+    /// Goes back to the newest frame.
+    pub(super) fn take_up(&mut self) {
+        if let Some(newest) = self.newest.take() {
+            let Newest { simulation, stall, whole } = *newest;
+            (self.simulation, self.stall, self.whole) = (simulation, stall, whole);
+            self.changed = self.changes.len();
+        }
+    }
+
+    /// Sets out for the end of `frame`, no earlier than the oldest and no later than the newest: the run is then there
+    /// or before, and [`Course::advance`] leads there.
+    pub(super) fn set_out(&mut self, frame: u64) {
+        let frame = frame.max(self.oldest().0);
+        if frame >= self.newest().0 {
+            return self.take_up();
+        }
+        self.toward = None;
+        let here = (self.is_past() && self.whole && self.frame() <= frame).then_some(self.frame());
+        let keyframe = self.keyframes.before(frame);
+        if here.is_some_and(|here| keyframe.is_none_or(|kept| kept.frame <= here)) {
+            return;
+        }
+        let (run, changes) = match keyframe {
+            Some(kept) => (kept.run(), kept.changes),
+            None => (begin(&self.job), 0),
+        };
+        self.put_aside(run, changes);
+        self.toward = Some((frame, 0.0));
+    }
+
+    /// Sets out for the first frame that ends at or after `time`, s.
+    pub(super) fn set_out_for(&mut self, time: f64) {
+        if time > self.newest().1 {
+            return self.take_up();
+        }
+        let before = self.keyframes.last_where(|kept| kept.time < time).map_or(self.oldest().0, |kept| kept.frame);
+        let on_the_way = self.is_past() && self.whole && self.time() < time && self.frame() >= before;
+        if !on_the_way {
+            self.set_out(before);
+        }
+    }
+
+    /// Sets out for the first frame with so many impacts; false if it was before all that is kept.
+    pub(super) fn set_out_for_impact(&mut self, impacts: u64) -> bool {
+        let (oldest, _, least) = self.oldest();
+        if impacts <= least {
+            return false;
+        }
+        let before = self.keyframes.last_where(|kept| kept.impacts < impacts).map(|kept| kept.frame);
+        self.set_out(before.unwrap_or(oldest));
+        true
+    }
+
+    /// Shows an earlier run, of which so many changes have been made.
+    fn put_aside(&mut self, run: Simulation, changes: usize) {
+        let before = std::mem::replace(&mut self.simulation, run);
+        let (stall, whole) = (self.stall.take(), std::mem::replace(&mut self.whole, true));
+        if self.newest.is_none() {
+            self.newest = Some(Box::new(Newest { simulation: before, stall, whole }));
+        }
+        (self.waiting, self.changed) = (None, changes);
+        self.catch_up();
+    }
+
+    /// Lets the run go on from here: later frames are dropped; how many.
+    pub(super) fn branch(&mut self) -> u64 {
+        let Some(newest) = self.newest.take() else { return 0 };
+        self.keyframes.cut(self.frame(), self.time());
+        self.scouted = None;
+        self.changes.truncate(self.changed);
+        newest.simulation.tallies().frames - self.frame()
+    }
+
+    /// Forgets all that was before.
+    fn begin_anew(&mut self) {
+        self.keyframes = Keyframes::default();
+        self.changes.clear();
+        self.changed = 0;
+        self.from_start = false;
+    }
+}
+
+/// The job's simulation at t = 0, keeping the events that the collision ticks count, and what explains a frame.
+fn begin(job: &Job) -> Simulation {
+    let mut simulation = Simulation::new(&job.scene, job.settings);
+    simulation.record_events(true);
+    simulation.explain(true);
+    simulation
+}
+
+#[cfg(test)]
+mod tests;

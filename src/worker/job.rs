@@ -1,0 +1,19 @@
+//! What a worker works on.
+
+use std::sync::Arc;
+
+use crate::{
+    scene::{Scene, Settings},
+    snapshot::Stage,
+};
+
+/// A scene to simulate.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// What its snapshots show as constant.
+    pub stage: Arc<Stage>,
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// What to solve it with.
+    pub settings: Settings,
+}

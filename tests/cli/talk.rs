@@ -1,0 +1,58 @@
+//! Can a run be led without a screen, line by line?
+
+use std::io::Write;
+use std::process::Stdio;
+
+use crate::program::{Ran, command};
+
+/// What is told when these lines come, all at once, through a pipe.
+fn talk(scene: &str, lines: &str) -> Ran {
+    let mut command = command(&["--text", "--paused", scene]);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the built binary");
+    let mut stdin = child.stdin.take().expect("a pipe");
+    stdin.write_all(lines.as_bytes()).expect("it is read");
+    drop(stdin);
+    let ran = Ran::from(child.wait_with_output().expect("it ends"));
+    assert!(ran.out.lines().all(|line| line.chars().all(carom::printable::is_printable)), "{ran:?}");
+    ran
+}
+
+#[test]
+fn a_run_is_stepped_with_empty_lines_and_with_the_keys() {
+    let said = talk("paper-0", "\n\n.\nn\nRight\n....\nq\n").succeeds().out;
+    let times: Vec<&str> = said.lines().filter(|line| line.starts_with("At ")).collect();
+    let expected = ["At 0 ", "At 0.01 ", "At 0.02 ", "At 0.03 ", "At 0.04 ", "At 0.05 ", "At 0.09 "];
+    assert_eq!(times.len(), expected.len(), "{said}");
+    assert!(times.iter().zip(expected).all(|(line, time)| line.starts_with(time)), "{said}");
+}
+
+#[test]
+fn it_goes_to_a_collision_and_shows_its_card() {
+    let said = talk("paper-1", "c\ncard\ncard 0\ncard 9\nq\n").succeeds().out;
+    let card = "Sphere 0 and wall 6: impact at ";
+    assert_eq!(said.matches(card).count(), 3, "told when it comes, among all, and by number: {said}");
+    for word in ["m/s", "N s", "degree", "9 is not allowed: there are contacts 0 to "] {
+        assert!(said.contains(word), "{word:?} is not in {said}");
+    }
+    assert!(talk("paper-0", "\ncard\n").succeeds().out.contains("no contacts in this frame"));
+}
+
+#[test]
+fn orders_are_obeyed_in_turn_and_wrong_ones_are_told() {
+    let said =
+        talk("paper-0", ":goto 2\n:tolerance 1e-6\n.\n:nonsense\n:hash\n?\nZ\n\u{1b}[A\u{202e}\nq\n").succeeds().out;
+    let place = |text: &str| said.find(text).unwrap_or_else(|| panic!("{text:?} is not in {said}"));
+    assert!(place("At 2 seconds.") < place("At 2.0") || place("At 2 seconds.") < place("There is no :nonsense"));
+    assert!(place("There is no :nonsense") < place("hash="));
+    assert!(place("hash=") < place("q Ctrl-C: quit."));
+    assert!(place("q Ctrl-C: quit.") < place("Z has a use on a screen only."));
+}
+
+#[test]
+fn the_end_of_the_lines_and_lines_without_end_do_no_harm() {
+    talk("paper-0", "").succeeds();
+    talk("paper-0", " ").succeeds();
+    let said = talk("paper-0", &format!("{}\n.\nq\n", ":goto 1 ".repeat(100_000))).succeeds().out;
+    assert!(said.contains("At 0.01 seconds."), "{}", said.len());
+}

@@ -1,0 +1,57 @@
+//! Do the keys of a contact's card, of its trial steps and of the message line do what they should?
+
+use super::app::User;
+
+#[test]
+fn the_card_of_a_contact_opens_moves_and_closes_and_the_inspector_can_be_hidden() {
+    let mut user = User::with("paper-0");
+    user.type_in("c\n");
+    assert!(user.text().contains("1 of 1") && user.text().contains("collides"), "{}", user.text());
+    user.type_in(".");
+    assert!(user.text().contains("contact"), "it stays open while one steps\n{}", user.text());
+    user.type_in("\x1b");
+    assert!(!user.text().contains("Esc closes"), "{}", user.text());
+    let shown = |user: &User| (user.text().contains("none selected"), user.text().contains("Esc closes"));
+    let mut seen = Vec::new();
+    for _ in 0..3 {
+        user.type_in("i");
+        seen.push(shown(&user));
+    }
+    assert_eq!(seen, [(true, false), (false, true), (false, false)], "numbers, card, off");
+}
+
+#[test]
+fn the_trial_steps_of_a_search_are_gone_through_with_the_views() {
+    let mut user = User::with("paper-0");
+    user.type_in("(");
+    assert!(user.text().contains("searched for no collision time"), "{}", user.text());
+    user.type_in("c\x1b");
+    let (at_end, trials) = (user.screen.clone(), user.snapshot().trials.clone());
+    assert_eq!(trials.len(), user.snapshot().probes.len());
+    user.type_in(")");
+    assert!(user.text().contains(&format!("trial step 1 of {}", trials.len())), "{}", user.text());
+    let first = user.snapshot().at_trial(0).expect("it is kept");
+    assert!(first.x == trials[0] && first.t > user.snapshot().t, "the first trial step is a whole frame");
+    for _ in &trials {
+        user.type_in(")");
+    }
+    assert!(!user.text().contains("trial step 1 of"), "past the last one the frame's end is shown\n{}", user.text());
+    user.type_in("\x1b");
+    assert_eq!(user.screen, at_end);
+}
+
+#[test]
+fn what_happens_unasked_hides_no_answer_and_the_next_key_ends_both() {
+    let mut user = User::with("paper-0");
+    user.type_in(":hash\n");
+    user.app.tell("The line was silent for 1.0 s; 3 frames were skipped.");
+    user.app.tell("The line was silent for 2.0 s; 9 frames were skipped.");
+    user.look();
+    let message = format!("{} {}", user.row(-2).trim(), user.row(-1).trim());
+    assert!(
+        message.contains("hash=") && message.contains("for 2.0 s; 9 frames") && !message.contains("1.0 s"),
+        "{message}"
+    );
+    user.type_in("\x1b");
+    assert!(!user.text().contains("hash=") && !user.text().contains("silent"), "{}", user.text());
+}
