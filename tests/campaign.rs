@@ -32,7 +32,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{Failure, Generator, Met};
-use mended::{LABORIOUS, MENDED};
+use mended::{LABORIOUS, MENDED, MENDED_STACKS};
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
 const ROOMS: Generator = Generator { scene: rooms::room_scene, halves: 20, budget: 20_000_000, boxed: true };
@@ -128,6 +128,15 @@ fn seeds_that_ever_failed_stay_mended() {
     let (_, failures) = sweep(&seeds, &|seed, halves, met| judged::check(&ROOMS, seed, halves, met));
     let shown: Vec<&str> = failures.iter().map(|failure| failure.text.as_str()).collect();
     assert!(failures.is_empty(), "{}\n{}", kinds(&failures), shown.join("\n"));
+}
+
+#[test]
+fn small_scenes_that_ever_failed_or_went_on_for_ever_stay_mended() {
+    for (seeds, generator) in [(&[(151, 5)][..], &FUNNELS), (&[(257, 1)], &TUBES), (&MENDED_STACKS, &STACKS)] {
+        let (_, failures) = sweep(seeds, &|seed, halves, met| judged::check(generator, seed, halves, met));
+        let shown: Vec<&str> = failures.iter().map(|failure| failure.text.as_str()).collect();
+        assert!(failures.is_empty(), "{}\n{}", kinds(&failures), shown.join("\n"));
+    }
 }
 
 #[test]
