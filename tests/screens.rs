@@ -83,6 +83,10 @@ fn list(filter: &'static str, filtering: bool, cursor: usize) -> Popup<'static> 
     Popup::Scenes { filter, filtering, entries: SCENES, cursor }
 }
 
+fn prompt(text: &str) -> Popup<'_> {
+    Popup::Prompt { text, cursor: text.len(), offers: "" }
+}
+
 fn draw(screen: &Screen, width: u16, height: u16) -> Buffer {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
@@ -146,7 +150,7 @@ fn the_scene_list_looks_as_stored() {
 #[test]
 fn the_prompt_and_news_look_as_stored() {
     let scene = stages::drop();
-    store("prompt", &Screen { popup: Popup::Prompt { text: "tolerance 1e-9" }, ..scene.screen() });
+    store("prompt", &Screen { popup: prompt("tolerance 1e-9"), ..scene.screen() });
     store("message", &Screen { message: Some("tolerance 1e-9 from here"), ..scene.screen() });
 }
 
@@ -213,14 +217,8 @@ fn everything(mut check: impl FnMut(&Screen)) {
             [stages::drop(), stages::wedge(), stages::pile(), stages::stalled(), stages::gas(9), hostile.clone()];
         for mut scene in scenes {
             scene.view_settings.marker = marker;
-            for popup in [
-                Popup::None,
-                help(0),
-                help(99),
-                list("é", true, 3),
-                list("", false, 0),
-                Popup::Prompt { text: "dt 1e-3é" },
-            ] {
+            for popup in [Popup::None, help(0), help(99), list("é", true, 3), list("", false, 0), prompt("dt 1e-3é")]
+            {
                 check(&Screen { popup, ..scene.screen() });
             }
             check(&Screen { message: Some("Wrote état.svg → here"), ..scene.screen() });
@@ -273,7 +271,7 @@ fn hostile(seed: usize) -> Scene {
 #[test]
 fn every_size_up_to_forty_by_twenty_is_drawn_within_it() {
     for scene in [stages::stalled(), hostile(3)] {
-        for popup in [Popup::None, help(2), list("é", true, 3), Popup::Prompt { text: "dt 1e-3é" }] {
+        for popup in [Popup::None, help(2), list("é", true, 3), prompt("dt 1e-3é")] {
             let screen = Screen { popup, ..scene.screen() };
             for (width, height) in (0..=40).flat_map(|width| (0..=20).map(move |height| (width, height))) {
                 assert_stays_within(&screen, width, height);

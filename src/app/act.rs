@@ -6,10 +6,10 @@ use super::{
     input::Effect,
     keys::{Code, Key, pairs},
     knobs,
+    line::{LONGEST, Line, Typed},
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
     state::{Open, State},
-    until::Named,
     view_settings,
 };
 use crate::{
@@ -23,28 +23,23 @@ use crate::{
 /// Rows by which PageUp and PageDown move a card.
 const CARD_PAGE: usize = 5;
 
-/// Longest text the prompt takes; more than any order needs.
-const PROMPT: usize = 200;
-
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         (self.answer, self.news) = (None, None);
         self.cost_told = self.cost_told.saturating_sub(1);
-        // These work whatever is open and is being typed into.
-        if let Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) =
-            self.keymap.action(key).filter(|_| key.ctrl)
-        {
-            return self.act(action);
+        // These work whatever is open and is being typed into, but that Ctrl-C closes the `:` line first.
+        let typing = matches!(self.open, Open::Prompt(_));
+        match self.keymap.action(key).filter(|_| key.ctrl) {
+            Some(Action::Quit) if typing => {}
+            Some(action @ (Action::Quit | Action::Repaint | Action::Suspend)) => return self.act(action),
+            _ => {}
+        }
+        if typing {
+            self.key_on_the_line(key);
+            return Effect::DrawNow;
         }
         match &mut self.open {
-            Open::Prompt(text) => match typed(text, key) {
-                Typed::Text => {}
-                Typed::Nothing => self.open = Open::Nothing,
-                Typed::Order(text) => {
-                    self.open = Open::Nothing;
-                    self.order(&text);
-                }
-            },
+            Open::Prompt(_) => {}
             Open::Scenes(list) => match list.handle(key) {
                 Outcome::Stay => {}
                 Outcome::Close => self.open = Open::Nothing,
@@ -70,6 +65,21 @@ impl State {
         Effect::DrawNow
     }
 
+    fn key_on_the_line(&mut self, key: Key) {
+        let scenes = self.scene_names();
+        let context = self.context(&scenes);
+        let Open::Prompt(line) = &mut self.open else { return };
+        match line.key(key, &self.orders, &context) {
+            Typed::Text => {}
+            Typed::Nothing => self.open = Open::Nothing,
+            Typed::Order(text) => {
+                self.open = Open::Nothing;
+                self.orders.remember(&text);
+                self.order(&text);
+            }
+        }
+    }
+
     /// Takes pasted text where text is typed.
     pub(super) fn paste(&mut self, text: &str) -> Effect {
         let typing = match &self.open {
@@ -80,7 +90,7 @@ impl State {
         if !typing {
             return Effect::Nothing;
         }
-        for c in text.chars().filter(|c| printable::is_printable(*c)).take(PROMPT) {
+        for c in text.chars().filter(|c| printable::is_printable(*c)).take(LONGEST) {
             let _ = self.key(Key::char(c));
         }
         Effect::DrawNow
@@ -108,7 +118,7 @@ impl State {
             Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
             Action::Oldest => self.head_for(Command::Oldest, true),
             Action::Newest => self.head_for(Command::Newest, true),
-            Action::Until => self.open = Open::Prompt("until ".into()),
+            Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
             Action::Reload => self.reload(),
@@ -123,7 +133,7 @@ impl State {
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
             Action::Ghost => self.toggle_ghost(),
-            Action::Prompt => self.open = Open::Prompt(String::new()),
+            Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.toggle_scenes(),
             Action::Close => self.close(),
@@ -216,8 +226,7 @@ impl State {
     }
 
     fn neighbor_scene(&mut self, offset: isize) {
-        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
-        let names: Vec<String> = given.chain(scene_list::built_in_names().map(str::to_owned)).collect();
+        let names = self.scene_names();
         let at = names.iter().position(|name| *name == self.wanted_name());
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
         self.open_scene(&names[next]);
@@ -353,15 +362,18 @@ impl State {
     }
 
     fn order(&mut self, text: &str) {
-        let stage = &self.current.stage;
-        let (spheres, walls) = (stage.radii.len(), stage.walls.len());
-        let named = Named { spheres, walls, selected: self.view_settings.selected };
-        match prompt::read(text, named) {
+        match prompt::read(text, &self.context(&[])) {
             Ok(None) => {}
             Ok(Some(Order::Dt(dt))) => self.solve_with(Ok(Settings { dt, ..self.settings })),
             Ok(Some(Order::Tolerance(tolerance))) => self.solve_with(Ok(Settings { tolerance, ..self.settings })),
             Ok(Some(Order::Speed(speed))) => self.go_at(Ok(speed)),
             Ok(Some(Order::Goto(t))) => self.goto(t),
+            Ok(Some(Order::Method(method))) => self.solve_with(Ok(Settings { method, ..self.settings })),
+            Ok(Some(Order::Scene(name))) => self.open_scene(&name),
+            Ok(Some(Order::Select(index))) => {
+                self.let_go();
+                self.view_settings.selected = index;
+            }
             Ok(Some(Order::Until(stop))) => {
                 self.until = Some(stop);
                 self.until_again();
@@ -377,31 +389,6 @@ impl State {
             Err(said) => self.say(said),
         }
     }
-}
-
-/// What a key on the `:` line has made of it.
-enum Typed {
-    /// A text still being typed.
-    Text,
-    /// Nothing: the line closes.
-    Nothing,
-    /// A text to obey.
-    Order(String),
-}
-
-fn typed(text: &mut String, key: Key) -> Typed {
-    match (key.code, key.typed()) {
-        (Code::Enter, _) => return Typed::Order(std::mem::take(text)),
-        (Code::Escape, _) => return Typed::Nothing,
-        (Code::Backspace, _) => match text.pop() {
-            Some(_) => {}
-            None => return Typed::Nothing,
-        },
-        (Code::Char('u'), None) => text.clear(),
-        (_, Some(c)) if text.len() < PROMPT => text.push(c),
-        _ => {}
-    }
-    Typed::Text
 }
 
 /// Where a key scrolls a text that goes down by `limit` rows at most, on a screen of so many, if it is a scrolling key.

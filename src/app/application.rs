@@ -4,6 +4,7 @@ use ratatui::{buffer::Buffer, layout::Position};
 
 use super::{
     comparison::Comparison,
+    hints::hints,
     input::{Effect, Input, Setup},
     keys::pairs,
     said,
@@ -156,10 +157,16 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
     let message = state.message();
     let snapshot = &state.report.snapshot;
     let trial = state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
-    let (help, hints) = (pairs(&state.help), pairs(&state.hints));
+    let hints = hints(&state.keymap, state.place());
+    let (help, hints) = (pairs(&state.help), pairs(&hints));
     let entries: Vec<(&str, &str)> = match &state.open {
         Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
         _ => Vec::new(),
+    };
+    let scenes = state.scene_names();
+    let offers = match &state.open {
+        Open::Prompt(line) => line.offers(&state.context(&scenes)).join("  "),
+        _ => String::new(),
     };
     show(&Screen {
         snapshot: trial.as_ref().unwrap_or(snapshot),
@@ -170,7 +177,7 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
         view_settings: &state.view_settings,
         popup: match &state.open {
             Open::Nothing => Popup::None,
-            Open::Prompt(text) => Popup::Prompt { text },
+            Open::Prompt(line) => Popup::Prompt { text: line.text(), cursor: line.cursor(), offers: &offers },
             Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
             Open::Scenes(list) => Popup::Scenes {
                 filter: list.filter(),

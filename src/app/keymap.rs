@@ -127,12 +127,12 @@ mod tests {
         let told = |keymap: &Keymap, action| {
             keymap.help_rows().into_iter().find(|(_, told)| *told == does(action)).map(|(keys, _)| keys)
         };
-        keymap.bind(Action::Restart, &[Key::char('w'), Key::plain(Code::F(5))]);
-        assert_eq!(keymap.action(Key::char('w')), Some(Action::Restart));
+        keymap.bind(Action::Restart, &[Key::char('!'), Key::plain(Code::F(5))]);
+        assert_eq!(keymap.action(Key::char('!')), Some(Action::Restart));
         assert_eq!(keymap.action(Key::plain(Code::F(5))), Some(Action::Restart));
         assert_eq!(keymap.action(Key::char('r')), None);
-        assert!(keymap.hints().contains(&("w".into(), "restart")));
-        assert_eq!(told(&keymap, Action::Restart).as_deref(), Some("w F5"));
+        assert!(keymap.hints().contains(&("!".into(), "restart")));
+        assert_eq!(told(&keymap, Action::Restart).as_deref(), Some("! F5"));
         keymap.bind(Action::Restart, &[]);
         assert_eq!(told(&keymap, Action::Restart), None);
         assert!(!keymap.hints().iter().any(|(_, word)| *word == "restart"));

@@ -13,6 +13,8 @@
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `hints` | the keys that are useful where one is |
+//! | `line` | the `:` line while it is typed |
 //! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
 //! | `mouse`, `pointer` | the mouse, and what it does |
 //! | `comparison` | the exact run beside the one shown |
@@ -22,11 +24,13 @@ mod action;
 mod application;
 mod comparison;
 mod current;
+mod hints;
 mod input;
 mod key_name;
 mod keymap;
 mod keys;
 mod knobs;
+mod line;
 mod loading;
 mod mouse;
 mod opening;

@@ -9,7 +9,7 @@ use crate::{
 /// A sentence for the line under the picture; `duration` is the scene's, s.
 pub(super) fn sentence(said: &Said, duration: f64) -> String {
     match said {
-        Said::Met { stop, met, t } => format!("Stopped at t = {} s: {}.", time(*t), came(stop, met)),
+        Said::Met { stop, met, t } => format!("Stopped at t = {} s: {}.", significant(*t, 5), came(stop, met)),
         Said::Nothing { stop, from, within } => {
             let another = if *from >= duration { "another " } else { "" };
             let over = if *from >= duration { ", past the scene's duration" } else { "" };
@@ -17,25 +17,19 @@ pub(super) fn sentence(said: &Said, duration: f64) -> String {
                 "No {} within {another}{} s: the run stays at t = {} s{over}.",
                 noun(stop),
                 number(*within),
-                time(*from)
+                significant(*from, 5)
             )
         }
         Said::Past { t } => format!("t = {} s is past; :goto {} goes back.", number(*t), number(*t)),
         Said::Dropped { frames, t } => {
             let are = if *frames == 1 { "frame is" } else { "frames are" };
-            format!("The run goes on from t = {} s; {} later {are} dropped.", time(*t), thousands(*frames))
+            format!("The run goes on from t = {} s; {} later {are} dropped.", significant(*t, 5), thousands(*frames))
         }
         Said::Start => "This is the start of the run.".into(),
-        Said::Oldest { t } => format!("Nothing before t = {} s is kept; r starts again.", time(*t)),
+        Said::Oldest { t } => format!("Nothing before t = {} s is kept; r starts again.", significant(*t, 5)),
         Said::Newest => "This is the newest frame.".into(),
         Said::NoEarlierImpact => "There is no collision before this one.".into(),
     }
-}
-
-/// A time, s, to six digits.
-fn time(t: f64) -> String {
-    let text = significant(t, 6);
-    text.parse().map_or(text, number)
 }
 
 /// What came, after a colon.

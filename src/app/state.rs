@@ -8,17 +8,21 @@ use super::{
     action::Action,
     comparison::Comparison,
     current::Current,
+    hints::Place,
     input::Setup,
     keymap::Keymap,
     knobs,
+    line::{Line, Orders},
     loading::Loading,
     mouse::Pointer,
+    prompt::Context,
     scene_list::{self, SceneList},
     view_settings,
 };
 use crate::{
     printable,
     scene::{self, Settings},
+    snapshot::Class,
     view::ViewSettings,
     worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
@@ -29,7 +33,7 @@ pub(super) enum Open {
     Nothing,
     Help { scroll: usize },
     Scenes(SceneList),
-    Prompt(String),
+    Prompt(Line),
 }
 
 /// What the application holds.
@@ -59,6 +63,8 @@ pub(super) struct State {
     pub(super) notify: Notify,
     pub(super) view_settings: ViewSettings,
     pub(super) open: Open,
+    /// Orders given on the `:` line.
+    pub(super) orders: Orders,
     /// What the last key has led to, until the next key.
     pub(super) answer: Option<String>,
     /// What happened unasked and is worth a line, until the next key.
@@ -68,7 +74,6 @@ pub(super) struct State {
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
-    pub(super) hints: Vec<(String, &'static str)>,
 }
 
 impl State {
@@ -103,11 +108,11 @@ impl State {
             notify,
             view_settings,
             open: Open::Nothing,
+            orders: Orders::default(),
             answer: None,
             news: None,
             area: Rect::default(),
             help: setup.keymap.help_rows(),
-            hints: setup.keymap.hints(),
             keymap: setup.keymap,
             pointer: Pointer::default(),
         };
@@ -116,6 +121,32 @@ impl State {
             state.run(true);
         }
         Ok(state)
+    }
+
+    /// The names of all scenes: the file the program was started with, then the built-in ones.
+    pub(super) fn scene_names(&self) -> Vec<String> {
+        let given = self.given.iter().map(|(entry, _)| entry.name.clone());
+        given.chain(scene_list::built_in_names().map(str::to_owned)).collect()
+    }
+
+    /// What the hint line is for.
+    pub(super) fn place(&self) -> Place {
+        let snapshot = &self.report.snapshot;
+        let struck = || snapshot.contacts.iter().any(|contact| contact.class == Class::Collide);
+        match (&self.open, self.report.activity) {
+            (Open::Scenes(_), _) => Place::List,
+            (Open::Help { .. }, _) => Place::Help,
+            _ if self.report.kept.is_past => Place::Past,
+            (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
+            _ => Place::Run,
+        }
+    }
+
+    /// What can be named on the `:` line, where there are these scenes.
+    pub(super) fn context<'a>(&self, scenes: &'a [String]) -> Context<'a> {
+        let stage = &self.current.stage;
+        let (spheres, walls) = (stage.radii.len(), stage.walls.len());
+        Context { spheres, walls, selected: self.view_settings.selected, scenes }
     }
 
     /// Answers the last key, in place of the key hints, until the next key.

@@ -43,6 +43,7 @@ impl Log {
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.contacts)
             + size_of_val(&*self.probes)
+            + size_of_val(&*self.approaches)
             + size_of_val(&*self.events)
             + size_of_val(&*self.resting)
     }

@@ -21,6 +21,7 @@ mod trend;
 pub use ghost::Ghost;
 pub use kept::Kept;
 pub use run::Snapshot;
+pub(crate) use run::shows_trials;
 pub use stage::Stage;
 pub use ticks::Ticks;
 pub use trend::{Trade, Trend};

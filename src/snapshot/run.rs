@@ -101,9 +101,15 @@ fn reason(sim: &Simulation, contact: &Contact) -> Option<RestReason> {
     if contact.class == Class::Rest { sim.rest_reason(contact.key()) } else { None }
 }
 
+/// Whether a snapshot of the run reads the inside of its last frame, where its search tried the spheres.
+pub(crate) fn shows_trials(sim: &Simulation) -> bool {
+    let probes = sim.probes().len();
+    probes > 0 && probes * sim.model().len() <= TRIALS
+}
+
 fn trials(sim: &Simulation) -> Vec<Vec<DVec3>> {
     let probes = sim.probes();
-    if probes.len() * sim.model().len() > TRIALS {
+    if !shows_trials(sim) {
         return Vec::new();
     }
     probes.iter().map(|probe| Some(sim.trial(probe.step)?.x)).collect::<Option<_>>().unwrap_or_default()

@@ -89,7 +89,7 @@ fn draw_popup(screen: &Screen, body: Rect, sheet: &mut Sheet) -> bool {
 pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
     let (body, last) = popup_places(screen.view_settings, area)?;
     match screen.popup {
-        Popup::Prompt { text } => prompt::cursor(text, last),
+        Popup::Prompt { text, cursor, .. } => prompt::cursor(text, cursor, last),
         Popup::Scenes { filter, filtering: true, .. } => scenes::cursor(filter, body),
         _ => None,
     }

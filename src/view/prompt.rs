@@ -11,8 +11,8 @@ use super::{
 /// Draws the last row of `area`, and as many over it as a long message needs.
 pub(super) fn draw_last_row(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (_, last) = split_bottom(area, 1);
-    if let Popup::Prompt { text } = screen.popup {
-        draw_prompt(text, last, sheet);
+    if let Popup::Prompt { text, cursor, offers } = screen.popup {
+        draw_prompt(text, cursor, offers, last, sheet);
     } else if let Some(message) = screen.message {
         draw_message(message, area, sheet);
     } else {
@@ -33,13 +33,23 @@ fn draw_message(message: &str, area: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// The text's end stays visible while it is typed, however long it is.
-fn draw_prompt(text: &str, area: Rect, sheet: &mut Sheet) {
+/// The cursor stays visible, however long the text is; what a word may go on as stands behind it, where there is room.
+fn draw_prompt(text: &str, cursor: usize, offers: &str, area: Rect, sheet: &mut Sheet) {
     let used = sheet.put(area, ":", sheet.palette.strong());
     let (_, rest) = split_left(area, used);
-    let tail = tail(text, rest.width.saturating_sub(1).into());
-    let used = sheet.put(rest, tail, sheet.palette.plain());
-    sheet.put(split_left(rest, used).1, " ", sheet.palette.reverse());
+    let (before, after) = split(text, cursor);
+    let before = tail(before, rest.width.saturating_sub(1).into());
+    let under = after.chars().next();
+    let behind = &after[under.map_or(0, char::len_utf8)..];
+    let under = under.map_or(" ".into(), String::from);
+    let (plain, faint) = (sheet.palette.plain(), sheet.palette.faint());
+    let pieces = [(before, plain), (&under, sheet.palette.reverse()), (behind, plain), ("  ", plain), (offers, faint)];
+    sheet.put_all(rest, &pieces);
+}
+
+/// The text before the cursor, and from there on.
+fn split(text: &str, cursor: usize) -> (&str, &str) {
+    text.split_at_checked(cursor).unwrap_or((text, ""))
 }
 
 /// As much of a text's end as fits so many columns.
@@ -49,8 +59,9 @@ fn tail(text: &str, columns: usize) -> &str {
 }
 
 /// Where the terminal's cursor belongs while the prompt is typed.
-pub(super) fn cursor(text: &str, area: Rect) -> Option<Position> {
-    let column = 1 + sheet::width(tail(text, usize::from(area.width).saturating_sub(2)));
+pub(super) fn cursor(text: &str, cursor: usize, area: Rect) -> Option<Position> {
+    let before = tail(split(text, cursor).0, usize::from(area.width).saturating_sub(2));
+    let column = 1 + sheet::width(before);
     (column < area.width.into()).then(|| Position::new(area.x + column as u16, area.y))
 }
 

@@ -199,5 +199,9 @@ pub enum Popup<'a> {
     Prompt {
         /// Text after the colon.
         text: &'a str,
+        /// The byte of it before which the cursor is.
+        cursor: usize,
+        /// What its last word may go on as.
+        offers: &'a str,
     },
 }

@@ -6,7 +6,7 @@
 
 use super::{
     job::Job,
-    keyframes::{Keyframes, MOST_FRAMES},
+    keyframes::{Keyframes, MOST_FRAMES, NOTICED, RECENT},
 };
 use crate::{
     physics::{Contact, Progress, Simulation, Stall, Until},
@@ -17,6 +17,9 @@ use crate::{
 /// Changes that are remembered: more than a hand makes in hours. When there are more, the history begins anew.
 const MOST_CHANGES: usize = 1 << 16;
 
+/// How long a scout goes on before commands are looked at again, s.
+const SCOUTING: f64 = 2e-3;
+
 /// A change of settings.
 #[derive(Debug, Clone, Copy)]
 struct Change {
@@ -26,6 +29,18 @@ struct Change {
     /// Whether the next frame had been tried, and could not be.
     stalled: bool,
     settings: Settings,
+}
+
+/// A run that is done again while nothing else is to do, to be kept near the frame that is shown.
+#[derive(Debug)]
+struct Scout {
+    run: Simulation,
+    changes: usize,
+    /// The frame to be kept, and the one that is shown.
+    target: u64,
+    shown: u64,
+    /// Work so far, s.
+    work: f64,
 }
 
 /// The run where it had come to, while an earlier frame is shown.
@@ -55,6 +70,11 @@ pub(super) struct Course {
     /// Impacts at its beginning.
     first_impacts: u64,
     newest: Option<Box<Newest>>,
+    /// The earlier frame that the run is on its way to from a keyframe, and the work since that or the one kept last, s.
+    toward: Option<(u64, f64)>,
+    scout: Option<Box<Scout>>,
+    /// The frame that was shown when a scout came home last.
+    scouted: Option<u64>,
 }
 
 impl Course {
@@ -75,6 +95,9 @@ impl Course {
             changed: 0,
             from_start: true,
             newest: None,
+            toward: None,
+            scout: None,
+            scouted: None,
         }
     }
 
@@ -212,17 +235,62 @@ impl Course {
 
     /// Takes note that the last advance took so long, s, and keeps the frame if it is time to; `clock` tells the time, s.
     pub(super) fn note_work(&mut self, seconds: f64, clock: impl Fn() -> f64) {
-        if !self.is_past() {
-            self.keyframes.note_work(seconds);
-            if self.whole && self.keyframes.is_due(self.frame()) {
-                self.keyframes.keep(&self.simulation, self.changed, clock);
-            }
+        if self.is_past() {
+            return self.keep_on_the_way(seconds);
+        }
+        self.keyframes.note_work(seconds);
+        if self.whole && self.keyframes.is_due(self.frame()) {
+            self.keyframes.keep(&self.simulation, self.changed, clock);
+        }
+    }
+
+    /// Keeps what comes shortly before the frame that the run is on its way to: the next step back is quick then.
+    fn keep_on_the_way(&mut self, seconds: f64) {
+        let frame = self.frame();
+        let Some((target, work)) = &mut self.toward else { return };
+        *work += seconds;
+        if self.whole && frame < *target && frame + RECENT >= *target && *work > NOTICED {
+            self.keyframes.insert(&self.simulation, self.changed, std::mem::take(work));
         }
     }
 
     /// Whether a call may do less than so many units of work.
     pub(super) fn limits(&self, work: u64) -> bool {
         work > self.most_work()
+    }
+
+    /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
+    /// `work`; whether there is more to do. `clock` tells the time, s.
+    pub(super) fn scout(&mut self, work: u64, clock: impl Fn() -> f64) -> bool {
+        let shown = self.frame();
+        let Some(scout) = self.scout.as_mut().filter(|scout| scout.shown == shown) else {
+            self.scout = self.send_scout(shown);
+            return self.scout.is_some();
+        };
+        let start = clock();
+        let mut progress = Progress::Reached;
+        while progress == Progress::Reached && scout.run.tallies().frames < scout.target && clock() - start < SCOUTING {
+            progress = scout.run.advance(Until::Frame, work);
+        }
+        scout.run.take_events();
+        scout.work += clock() - start;
+        let there = scout.run.tallies().frames >= scout.target;
+        if !there && !matches!(progress, Progress::Stalled(_)) {
+            return true;
+        }
+        self.scouted = Some(shown);
+        if let Some(scout) = self.scout.take().filter(|_| there) {
+            self.keyframes.insert(&scout.run, scout.changes, scout.work);
+        }
+        false
+    }
+
+    fn send_scout(&self, shown: u64) -> Option<Box<Scout>> {
+        let kept = self.keyframes.lacking_before(shown).filter(|_| self.scouted != Some(shown))?;
+        let target = shown - RECENT;
+        let change = self.changes.get(kept.changes).map_or(u64::MAX, |change| change.frame);
+        let scout = || Scout { run: kept.run(), changes: kept.changes, target, shown, work: 0.0 };
+        (change > target).then(|| Box::new(scout()))
     }
 
     /// Units of work in which no more frames can pass than a replay may have to look at.
@@ -291,6 +359,7 @@ impl Course {
         if frame >= self.newest().0 {
             return self.take_up();
         }
+        self.toward = None;
         let here = (self.is_past() && self.whole && self.frame() <= frame).then_some(self.frame());
         let keyframe = self.keyframes.before(frame);
         if here.is_some_and(|here| keyframe.is_none_or(|kept| kept.frame <= here)) {
@@ -301,6 +370,7 @@ impl Course {
             None => (begin(&self.job), 0),
         };
         self.put_aside(run, changes);
+        self.toward = Some((frame, 0.0));
     }
 
     /// Sets out for the first frame that ends at or after `time`, s.
@@ -341,6 +411,7 @@ impl Course {
     pub(super) fn branch(&mut self) -> u64 {
         let Some(newest) = self.newest.take() else { return 0 };
         self.keyframes.cut(self.frame(), self.time());
+        self.scouted = None;
         self.changes.truncate(self.changed);
         newest.simulation.tallies().frames - self.frame()
     }
@@ -354,7 +425,7 @@ impl Course {
     }
 }
 
-/// The job's simulation at t = 0, keeping the events that the collision ticks count.
+/// The job's simulation at t = 0, keeping the events that the collision ticks count, and what explains a frame.
 fn begin(job: &Job) -> Simulation {
     let mut simulation = Simulation::new(&job.scene, job.settings);
     simulation.record_events(true);

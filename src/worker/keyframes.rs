@@ -2,7 +2,10 @@
 //!
 //! Where they lie depends on how fast the machine is; what a replay from them leads to does not.
 
-use crate::physics::{Keyframe, Simulation};
+use crate::{
+    physics::{Keyframe, Simulation},
+    snapshot::shows_trials,
+};
 
 /// Memory that all keyframes may take, bytes.
 pub(super) const BUDGET: usize = 64 << 20;
@@ -26,7 +29,10 @@ const FARTHEST: f64 = 0.05;
 pub(super) const MOST_FRAMES: u64 = 1 << 14;
 
 /// The last frames, which one goes back to most: their keyframes are not thinned as long as others are left.
-const RECENT: u64 = 100;
+pub(super) const RECENT: u64 = 100;
+
+/// Work from one keyframe to the next, s, that is too much where one goes back frame by frame.
+pub(super) const NOTICED: f64 = 3e-3;
 
 /// A keyframe and where it belongs.
 #[derive(Debug)]
@@ -39,12 +45,27 @@ pub(super) struct Kept {
     pub(super) impacts: u64,
     /// Recorded changes that it includes.
     pub(super) changes: usize,
+    /// Whether the frame that ended then is shown with its inside, which a keyframe does not hold.
+    has_inside: bool,
     /// Work from the keyframe before, s.
     gap: f64,
     keyframe: Keyframe,
 }
 
 impl Kept {
+    /// A run between two frames, with the number of recorded changes it includes; none if it is too large.
+    fn of(run: &Simulation, changes: usize) -> Option<Kept> {
+        if run.model().len() * size_of::<[f64; 6]>() > LARGEST {
+            return None; // it need not be tried
+        }
+        let keyframe = run.keyframe();
+        let tallies = run.tallies();
+        let (frame, impacts) = (tallies.frames, tallies.impacts);
+        let has_inside = frame > 0 && shows_trials(run);
+        let kept = Kept { frame, time: run.time(), impacts, changes, has_inside, gap: 0.0, keyframe };
+        (kept.keyframe.bytes() <= LARGEST).then_some(kept)
+    }
+
     /// The run as it was.
     pub(super) fn run(&self) -> Simulation {
         self.keyframe.run()
@@ -74,9 +95,10 @@ impl Keyframes {
         self.list.first()
     }
 
-    /// The keyframe nearest before or at `frame`.
+    /// The keyframe nearest before `frame`, or at it, if all that is shown of it is there; else the first of all.
     pub(super) fn before(&self, frame: u64) -> Option<&Kept> {
-        self.last_where(|kept| kept.frame <= frame)
+        let near = self.last_where(|kept| kept.frame < frame || kept.frame == frame && !kept.has_inside);
+        near.or(self.first().filter(|first| first.frame == frame))
     }
 
     /// The last keyframe of a beginning of the list in which all are `so`.
@@ -105,25 +127,48 @@ impl Keyframes {
     /// Keeps a run between two frames, behind all others, with the number of recorded changes it includes; `clock`
     /// tells the time, s.
     pub(super) fn keep(&mut self, run: &Simulation, changes: usize, clock: impl Fn() -> f64) {
-        if run.model().len() * size_of::<[f64; 6]>() > LARGEST {
-            self.too_large = true;
-            return;
-        }
         let start = clock();
-        let keyframe = run.keyframe();
-        self.copying = clock() - start;
-        if keyframe.bytes() > LARGEST {
+        let Some(mut kept) = Kept::of(run, changes) else {
             self.too_large = true;
             return;
-        }
-        self.bytes += keyframe.bytes();
-        let gap = std::mem::take(&mut self.since);
-        let tallies = run.tallies();
-        let (frame, impacts) = (tallies.frames, tallies.impacts);
-        self.list.push(Kept { frame, time: run.time(), impacts, changes, gap, keyframe });
+        };
+        // a copy that was interrupted tells nothing
+        let took = clock() - start;
+        self.copying = if self.copying > 0.0 { took.min(1.25 * self.copying) } else { took };
+        kept.gap = std::mem::take(&mut self.since);
+        self.bytes += kept.keyframe.bytes();
+        self.list.push(kept);
         if self.bytes > BUDGET {
             self.thin();
         }
+    }
+
+    /// Keeps a run at its place among the others, so much work (s) after the one before, unless that frame is kept.
+    pub(super) fn insert(&mut self, run: &Simulation, changes: usize, work: f64) {
+        let frame = run.tallies().frames;
+        let place = self.list.partition_point(|other| other.frame < frame);
+        if self.list.get(place).is_some_and(|other| other.frame == frame) {
+            return;
+        }
+        let Some(mut kept) = Kept::of(run, changes) else { return };
+        kept.gap = work;
+        let after = self.list.get_mut(place).map_or(&mut self.since, |after| &mut after.gap);
+        *after = (*after - work).max(0.0);
+        self.bytes += kept.keyframe.bytes();
+        self.list.insert(place, kept);
+        if self.bytes > BUDGET {
+            self.thin();
+        }
+    }
+
+    /// A keyframe from which a run should be done again up to the last frame that is [`RECENT`] before `frame`, to be kept
+    /// there: between it and the next lies so much work that going back frame by frame from `frame` would be slow.
+    pub(super) fn lacking_before(&self, frame: u64) -> Option<&Kept> {
+        let target = frame.checked_sub(RECENT)?;
+        let count = self.list.partition_point(|kept| kept.frame <= target);
+        let before = &self.list[count.checked_sub(1)?];
+        let work = self.list.get(count).map_or(self.since, |after| after.gap);
+        (before.frame + RECENT < target && work > NOTICED).then_some(before)
     }
 
     /// Drops what came after `frame`, at which the run is, at `time` (s); the next frame is worth a keyframe.
@@ -185,12 +230,12 @@ impl Keyframes {
 mod tests {
     use super::*;
     use crate::physics::{Progress, Until};
-    use crate::scene;
+    use crate::scene::{self, Method, Settings};
 
     /// A run of a thousand spheres, one keyframe a frame, each `gap` (s) of work from the last; what the clock tells.
     fn filled(frames: usize, gap: f64) -> (Keyframes, Simulation) {
         let scene = scene::open("box-gas").expect("built in").scene;
-        let mut run = Simulation::new(&scene, scene.solver);
+        let mut run = Simulation::new(&scene, Settings { method: Method::Exact, ..scene.solver });
         let mut keyframes = Keyframes::default();
         keyframes.keep(&run, 0, || 0.0);
         for _ in 0..frames {

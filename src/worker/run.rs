@@ -61,6 +61,8 @@ pub(super) struct Runner {
     moved: bool,
     /// Whether anything has changed since the last report.
     unreported: bool,
+    /// Whether there may be something to do while the run waits.
+    scouting: bool,
     /// CPU time spent on advancing since t = 0, s.
     cpu: f64,
     /// When the next report of a running run is due, s on `clock`.
@@ -88,6 +90,7 @@ impl Runner {
             said: None,
             moved: false,
             unreported: false,
+            scouting: false,
             cpu: 0.0,
             report_due: 0.0,
         }
@@ -98,6 +101,9 @@ impl Runner {
         while self.listen() {
             if !self.goal.is_nowhere() {
                 self.slice();
+                self.scouting = true;
+            } else if self.scouting {
+                self.scouting = self.course.scout(self.slices.work(), || self.clock.elapsed().as_secs_f64());
             }
             let now = self.now();
             if self.unreported && (self.goal.is_nowhere() || now >= self.report_due) {
@@ -131,7 +137,7 @@ impl Runner {
     /// How long there is nothing to do, s: `None` until a command comes.
     fn rest(&self) -> Option<f64> {
         match self.goal {
-            Goal::Nowhere => None,
+            Goal::Nowhere => self.scouting.then_some(0.0),
             Goal::On => {
                 let now = self.now();
                 let due = self.pace.wait(now, self.time());

@@ -238,6 +238,8 @@ fn letters_are_text_where_text_is_typed_but_control_keys_still_work() {
     user.look();
     assert!(user.row(-1).contains(":quick"), "{}", user.row(-1));
     assert_eq!(user.press(Key::ctrl('l')), Effect::Repaint);
+    assert_eq!(user.press(Key::ctrl('c')), Effect::DrawNow, "the line closes first");
+    assert!(!user.row(-1).contains(":quick"), "{}", user.row(-1));
     assert_eq!(user.press(Key::ctrl('c')), Effect::Quit);
 }
 

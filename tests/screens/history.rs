@@ -209,6 +209,41 @@ fn u_asks_until_what_and_capital_u_asks_no_more() {
 }
 
 #[test]
+fn the_hint_line_says_what_is_useful_where_one_is() {
+    let mut user = User::with("paper-0");
+    assert!(user.row(-1).starts_with(" space pause/run  . step"), "{}", user.row(-1));
+    user.type_in("c\x1b");
+    assert!(user.row(-1).contains("w why  ) search  c next  C before  ? help  q quit"), "{}", user.row(-1));
+    user.type_in(",");
+    assert!(user.row(-1).contains("space go on here  . on  , back  C collision before  G newest"), "{}", user.row(-1));
+    user.type_in("o");
+    assert!(user.row(-1).contains("j k move  / filter  Enter open  Esc close"), "{}", user.row(-1));
+    user.type_in("\x1b?");
+    assert!(user.row(-1).contains("j k scroll  Esc close"), "{}", user.row(-1));
+}
+
+#[test]
+fn orders_are_completed_recalled_and_named() {
+    let mut user = User::with("paper-3");
+    user.type_in(":unt\tcol\t1\n");
+    assert!(said(&user).contains("sphere 1 hits wall"), "{}", user.text());
+    let first = user.snapshot().t;
+    user.type_in(":");
+    let _ = user.press(Key::plain(Code::Up));
+    assert!(user.row(-1).starts_with(":until collision 1"), "{}", user.row(-1));
+    user.type_in("\n");
+    assert!(user.snapshot().t > first, "{}", user.text());
+    user.type_in(":until ");
+    assert!(user.row(-1).contains("collision  rest  release  exit  t=  speed>"), "{}", user.row(-1));
+    user.type_in("\x1b:method exact\n:select 1\n");
+    assert_eq!((user.snapshot().method, user.app.view_settings().selected), ("exact", Some(1)));
+    user.type_in(":select 7\n");
+    assert!(said(&user).contains("7 is not allowed: :select takes a sphere, 0 to 1, or none."), "{}", user.text());
+    user.type_in(":scene paper-4\n");
+    assert_eq!(user.snapshot().stage.key, "paper-4");
+}
+
+#[test]
 fn a_run_that_cannot_go_on_can_be_gone_back_in() {
     let mut user = User::with("paper-2");
     user.type_in(":goto 20\n");

@@ -16,6 +16,7 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
             "measure",
             "physics",
             "printable",
+            "recording",
             "scene",
             "snapshot",
             "terminal",
@@ -27,6 +28,7 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
     ("config", &["app", "format", "printable", "scene", "view"]),
     ("app", &["format", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
     ("explain", &["format", "snapshot"]),
+    ("recording", &["physics", "scene"]),
     ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
     ("view", &["explain", "format", "snapshot"]),
     ("frame", &["printable"]),
@@ -51,6 +53,7 @@ pub(crate) const METHODS: &[&str] = &["paper", "swept", "exact", "moreau"];
 pub(crate) const HOMES: &[(&str, &[&str])] = &[
     ("crossterm", &["terminal"]),
     ("signal_hook", &["terminal", "cli"]),
+    ("tui_input", &["app"]),
     ("ron", &["scene"]),
     ("serde_path_to_error", &["scene"]),
     ("serde", &["scene", "config", "export"]),

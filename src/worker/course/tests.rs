@@ -35,7 +35,7 @@ fn job(name: &str, method: Method) -> Job {
 /// A course, and what was seen at the end of each of its frames.
 struct Walk {
     course: Course,
-    seen: BTreeMap<u64, String>,
+    seen: BTreeMap<u64, Snapshot>,
     random: SplitMix64,
 }
 
@@ -52,12 +52,9 @@ impl Walk {
         (self.random.unit() * count as f64) as u64
     }
 
-    /// All that can be told of the frame at which the run is.
-    fn told(&self) -> String {
-        let run = self.course.simulation();
-        let snapshot = Snapshot::of(&self.course.job().stage, run, self.course.stall());
-        let Snapshot { step, energy, contacts, probes, tallies, method, dt, tolerance, .. } = &snapshot;
-        format!("{:016x} {:?}", snapshot.hash(), (step, energy, contacts, probes, tallies, method, dt, tolerance))
+    /// All that is shown of the frame at which the run is.
+    fn told(&self) -> Snapshot {
+        Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall())
     }
 
     fn look(&mut self) {
@@ -81,9 +78,13 @@ impl Walk {
         while !self.course.is_at(frame) {
             let work = 1 + self.below(200);
             let progress = self.course.advance(Until::Frame, work);
+            let cost = 4e-3 * f64::from(u8::from(self.below(50) == 0));
+            self.course.note_work(cost, || 0.0);
             assert!(!matches!(progress, Progress::Stalled(_)) && self.course.frame() <= frame, "{name}: {progress:?}");
         }
-        assert_eq!(self.told(), self.seen[&frame], "{name}: frame {frame}");
+        let (told, seen) = (self.told(), &self.seen[&frame]);
+        assert_eq!((told.hash(), told.tallies), (seen.hash(), seen.tallies), "{name}: frame {frame}");
+        assert!(told == *seen, "{name}: frame {frame}: {told:?}, not {seen:?}");
         assert_eq!(self.course.newest(), newest, "{name}");
         assert_eq!(self.course.is_past(), frame < newest.0, "{name}");
     }
@@ -237,6 +238,39 @@ fn times_and_impacts_are_found_where_they_were() {
         assert_eq!(walk.course.frame(), first, "impact {count}");
     }
     assert!(!walk.course.set_out_for_impact(0), "there was none before the first");
+}
+
+#[test]
+fn while_nothing_else_is_to_do_a_keyframe_is_put_before_the_last_frames() {
+    let mut walk = Walk::new("paper-4", Method::Exact);
+    for _ in 0..900 {
+        walk.course.advance(Until::Frame, WHOLE);
+        walk.look();
+    }
+    walk.course.note_work(5e-3, || 0.0); // all of them, as far as is known: too much to be done again for a frame
+    let settings = Settings { tolerance: 1e-5, ..walk.course.settings() };
+    walk.course.set(settings);
+    walk.look();
+    for _ in 0..50 {
+        walk.course.advance(Until::Frame, WHOLE);
+        walk.look();
+    }
+    let newest = walk.course.frame();
+    assert_eq!(walk.course.keyframes.before(newest - 1).map(|kept| kept.frame), Some(900));
+    walk.course.set_out(850);
+    while !walk.course.is_at(850) {
+        walk.course.advance(Until::Frame, WHOLE);
+    }
+    let mut turns = 0;
+    while walk.course.scout(WHOLE, || 0.0) {
+        turns += 1;
+        assert!(turns < 10, "it ends");
+    }
+    assert_eq!(walk.course.keyframes.before(849).map(|kept| kept.frame), Some(750));
+    assert!(!walk.course.scout(WHOLE, || 0.0), "and once is enough");
+    for frame in [760, 751, 750, 749, 899, 900, 901] {
+        walk.visit(frame, "from a scout's keyframe");
+    }
 }
 
 #[test]
