@@ -52,6 +52,9 @@ pub mod physics;
 pub mod printable;
 #[doc(hidden)]
 pub mod random;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod recording;
 #[doc(hidden)]
 pub mod roots;
 pub mod scene;

@@ -10,6 +10,8 @@ mod files;
 mod outputs;
 #[path = "cli/program.rs"]
 mod program;
+#[path = "cli/record.rs"]
+mod record;
 #[path = "cli/runs.rs"]
 mod runs;
 #[path = "cli/talk.rs"]

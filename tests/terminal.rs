@@ -1,5 +1,7 @@
 //! Does the built program treat a real terminal well? Each test runs it in a pseudo-terminal of its own.
 
+#[path = "terminal/bounds.rs"]
+mod bounds;
 #[path = "terminal/config.rs"]
 mod config;
 #[path = "terminal/detection.rs"]

@@ -2,6 +2,7 @@
 
 use super::{
     action::{Action, Direction},
+    comparison,
     input::Effect,
     keys::{Code, Key, pairs},
     knobs,
@@ -103,6 +104,7 @@ impl State {
 
     /// Does what a key is for. Every action is named, so that a new one that nothing does cannot be built.
     fn act(&mut self, action: Action) -> Effect {
+        let told = std::mem::take(&mut self.cost_told);
         match action {
             Action::Quit => return Effect::Quit,
             Action::Suspend => return Effect::Suspend,
@@ -130,7 +132,7 @@ impl State {
             Action::Faster => self.go_at(knobs::speed(self.speed, 2.0)),
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
-            Action::Ghost => self.toggle_ghost(),
+            Action::Ghost => self.toggle_ghost(told),
             Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.toggle_scenes(),
@@ -201,7 +203,14 @@ impl State {
         }
     }
 
-    fn toggle_ghost(&mut self) {
+    /// Shows the exact run or no longer; `told`: what it costs has been said.
+    fn toggle_ghost(&mut self, told: bool) {
+        let cost = comparison::cost(self.current.scene.spheres.len()).filter(|_| !told && self.comparison.is_none());
+        if let Some(cost) = cost {
+            self.cost_told = true;
+            let key = self.keymap.keys(Action::Ghost).first().map_or_else(|| "its key".into(), Key::to_string);
+            return self.say(format!("{cost}; {key} again starts it."));
+        }
         match self.comparison.take() {
             Some(comparison) => {
                 self.ending = Some(comparison.end());

@@ -52,6 +52,10 @@ pub(super) enum Command {
     Run(Run),
     /// Print one frame of the screen
     Render(Render),
+    /// Record a run: a file that proves itself, or a film of the screen
+    Record(Record),
+    /// Run a recording again, and name the first frame and sphere that differ
+    Replay(Replay),
     /// Measure how much accuracy costs how much time
     Measure(Measure),
     /// Measure known results of physics and mathematics on this machine
@@ -133,6 +137,38 @@ pub(super) struct Run {
     pub(super) check: bool,
     #[command(flatten)]
     pub(super) solver: Solver,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Record {
+    /// Scene file or built-in name
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) scene: OsString,
+    /// What to write: .carom has the scene, the settings and eight bytes per frame, .cast is an asciicast (v3) with a marker
+    /// per collision
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// End of the run, s [default: the scene's duration]
+    #[arg(long, value_name = "T", value_parser = numbers::not_negative, allow_hyphen_values = true)]
+    pub(super) until: Option<f64>,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Columns and rows of a film
+    #[arg(long, value_name = "WxH", default_value = "80x24", value_parser = numbers::size)]
+    pub(super) size: (u16, u16),
+    /// Simulated seconds per second of a film
+    #[arg(long, value_name = "X", default_value = "1", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) speed: f64,
+    #[command(flatten)]
+    pub(super) solver: Solver,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Replay {
+    /// A recording, .carom
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
 }
 
 #[derive(Debug, Args)]

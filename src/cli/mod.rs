@@ -13,15 +13,19 @@
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
 //! | `accuracy` | a setting chosen by the error wanted |
+//! | `frames` | a run without a screen, frame by frame |
+//! | `cast` | a film of the screen, for `carom record` |
 //! | `talk`, `lines` | the application without a screen: lines are keys |
 //! | the rest | one command each |
 
 mod accuracy;
 mod arguments;
+mod cast;
 mod check;
 mod completions;
 mod defaults;
 mod failure;
+mod frames;
 mod judge;
 mod lines;
 mod list;
@@ -32,7 +36,9 @@ mod numbers;
 mod output;
 mod place;
 mod play;
+mod record;
 mod render;
+mod replay;
 mod rows;
 mod run;
 mod show;
@@ -80,6 +86,8 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::Run(arguments) => run::run(arguments, signals),
         Command::Render(arguments) => render::render(arguments, signals),
+        Command::Record(arguments) => record::record(arguments, signals),
+        Command::Replay(arguments) => replay::replay(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
         Command::Verify(arguments) => verify::verify(arguments, signals),
         Command::Config => defaults::defaults(),

@@ -148,22 +148,31 @@ fn view_settings(display: &Display) -> ViewSettings {
 }
 
 fn draw(shown: &Shown, view_settings: &ViewSettings, (columns, rows): (u16, u16)) -> Buffer {
-    let area = Rect::new(0, 0, columns, rows);
-    let mut buffer = Buffer::empty(area);
-    let mode = if shown.stall.is_some() { Mode::Stalled } else { Mode::Pause };
+    let mut buffer = Buffer::empty(Rect::new(0, 0, columns, rows));
+    screen_of(&shown.snapshot, &shown.ticks, 1.0, view_settings, |screen| view::draw(screen, buffer.area, &mut buffer));
+    buffer
+}
+
+/// The screen of a paused run, at `speed` simulated seconds per second, lent to `show`.
+pub(super) fn screen_of(
+    snapshot: &Snapshot,
+    ticks: &Ticks,
+    speed: f64,
+    view_settings: &ViewSettings,
+    show: impl FnOnce(&Screen),
+) {
+    let mode = if snapshot.stall.is_some() { Mode::Stalled } else { Mode::Pause };
     let hints = app::hints();
     let hints: Vec<(&str, &str)> = hints.iter().map(|(keys, word)| (keys.as_str(), *word)).collect();
-    let screen = Screen {
-        snapshot: &shown.snapshot,
-        pace: Pace { mode, wanted: 1.0, reached: None },
-        ticks: &shown.ticks,
+    show(&Screen {
+        snapshot,
+        pace: Pace { mode, wanted: speed, reached: None },
+        ticks,
         kept: Kept::default(),
         comparison: None,
         view_settings,
         popup: Popup::None,
         message: None,
         hints: &hints,
-    };
-    view::draw(&screen, area, &mut buffer);
-    buffer
+    });
 }

@@ -58,7 +58,7 @@ mod warnings;
 
 pub use error::Error;
 pub use locate::Position;
-pub use open::{Opened, contents, open};
+pub use open::{Opened, contents, open, open_with_text};
 pub use parse::parse;
 pub use validated::{Color, ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};
 pub use warnings::{endless, warnings};

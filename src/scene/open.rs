@@ -33,18 +33,28 @@ pub struct Opened {
 /// # Errors
 /// If there is no such scene or file, it cannot be read, or it breaks a rule.
 pub fn open(name_or_path: impl AsRef<OsStr>) -> Result<Opened, Error> {
+    open_with_text(name_or_path).map(|(opened, _)| opened)
+}
+
+/// A scene as [`open`] opens it, and its text.
+///
+/// # Errors
+/// Those of [`open`].
+pub fn open_with_text(name_or_path: impl AsRef<OsStr>) -> Result<(Opened, String), Error> {
     let word = name_or_path.as_ref();
     let shown = printable::name(word);
     let is_path = word.as_encoded_bytes().ends_with(b".ron") || has_separator(word);
     if let Some(builtin) = word.to_str().and_then(builtin::find).filter(|_| !is_path) {
-        return Ok(Opened { key: builtin.name.to_owned(), path: None, scene: parse(builtin.text, builtin.name)? });
+        let opened = Opened { key: builtin.name.to_owned(), path: None, scene: parse(builtin.text, builtin.name)? };
+        return Ok((opened, builtin.text.to_owned()));
     }
     if !is_path && !Path::new(word).exists() {
         return Err(Error::whole(&shown, unknown(&word.to_string_lossy())));
     }
     let text = contents(Path::new(word), "a scene file").map_err(|message| Error::whole(&shown, message))?;
     let text = String::from_utf8(text).map_err(|error| not_text(&shown, &error))?;
-    Ok(Opened { key: key(word), path: Some(PathBuf::from(word)), scene: parse(&text, &shown)? })
+    let opened = Opened { key: key(word), path: Some(PathBuf::from(word)), scene: parse(&text, &shown)? };
+    Ok((opened, text))
 }
 
 fn has_separator(word: &OsStr) -> bool {

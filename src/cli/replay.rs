@@ -1,0 +1,46 @@
+//! `carom replay FILE`: runs a recording again, and names the first frame and the sphere that differ.
+
+use std::io::Write;
+
+use super::arguments::Replay;
+use super::failure::Failure;
+use super::frames::{next_frame, run_of};
+use super::output::Output;
+use super::signals::Signals;
+use crate::printable;
+use crate::recording::{Recording, Sums, Suspect};
+use crate::scene;
+
+pub(super) fn replay(arguments: &Replay, signals: &Signals) -> Result<(), Failure> {
+    let name = printable::name(arguments.file.as_os_str());
+    let failed = |said: String| Failure::Failed(format!("{name}: {said}"));
+    let bytes = scene::contents_within(&arguments.file, "a recording", LARGEST).map_err(failed)?;
+    let recording = Recording::from_bytes(&bytes).map_err(|error| failed(error.to_string()))?;
+    let mut run = run_of(&recording)?;
+    let spheres = run.model().len();
+    let (mut goes_on, mut compared) = (true, 0);
+    for recorded in &recording.frames {
+        if !goes_on {
+            return Err(failed(format!("after frame {} the run cannot go on, and the recording does", compared - 1)));
+        }
+        if let Some(suspect) = Sums::of(&run.state()).suspect(*recorded, spheres) {
+            let what = match suspect {
+                Suspect::Sphere(index) => format!("sphere {index} is"),
+                Suspect::Time => "the time is".into(),
+                Suspect::Several => "more than one sphere is, or the file is damaged there:".into(),
+            };
+            return Err(failed(format!(
+                "frame {compared}, at t = {:?} s, differs: {what} not as recorded",
+                run.time()
+            )));
+        }
+        compared += 1;
+        goes_on = compared == recording.frames.len() || next_frame(&mut run, signals)?;
+    }
+    let mut out = Output::stdout();
+    writeln!(out, "frames={} t={:?} hash={:016x} same", compared.saturating_sub(1), run.time(), run.state().hash())?;
+    out.finish()
+}
+
+/// Largest recording that is read, MiB.
+const LARGEST: u64 = 128;
