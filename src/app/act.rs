@@ -116,8 +116,7 @@ impl State {
             Action::TenBack => self.head_for(Command::Back(10), true),
             Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
             Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
-            Action::Oldest => self.head_for(Command::Oldest, true),
-            Action::Newest => self.head_for(Command::Newest, true),
+            Action::Oldest | Action::Newest => self.to_the_end(action == Action::Newest),
             Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
@@ -345,6 +344,11 @@ impl State {
         };
         *card = turned;
         true
+    }
+
+    /// To the newest frame, or to the first that is kept.
+    fn to_the_end(&mut self, newest: bool) {
+        self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
     /// Goes on until what was waited for last comes again.

@@ -50,9 +50,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
     let stopped = velocities(all, if only_fits(&resting, &velocity) { &[] } else { &resting });
-    for (place, &body) in stopped.bodies.iter().enumerate() {
-        bodies[body].v = stopped.vectors[place];
-    }
+    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
     let slack: Vec<f64> =
         bodies.iter().zip(&velocity).map(|(body, &v)| closed_speed(&Body { v, ..*body }, tick)).collect();
     let opens = |contact: &Resting| {
