@@ -116,7 +116,7 @@ impl State {
             Action::TenBack => self.head_for(Command::Back(10), true),
             Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
             Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
-            Action::Oldest | Action::Newest => self.to_the_end(action == Action::Newest),
+            Action::Oldest | Action::Newest => self.go_to_the_end(action == Action::Newest),
             Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
@@ -347,7 +347,7 @@ impl State {
     }
 
     /// To the newest frame, or to the first that is kept.
-    fn to_the_end(&mut self, newest: bool) {
+    fn go_to_the_end(&mut self, newest: bool) {
         self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
