@@ -26,6 +26,7 @@ const CARD_PAGE: usize = 5;
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         (self.answer, self.news) = (None, None);
+        self.cost_told = self.cost_told.saturating_sub(1);
         // These work whatever is open and is being typed into, but that Ctrl-C closes the `:` line first.
         let typing = matches!(self.open, Open::Prompt(_));
         match self.keymap.action(key).filter(|_| key.ctrl) {
@@ -104,7 +105,6 @@ impl State {
 
     /// Does what a key is for. Every action is named, so that a new one that nothing does cannot be built.
     fn act(&mut self, action: Action) -> Effect {
-        let told = std::mem::take(&mut self.cost_told);
         match action {
             Action::Quit => return Effect::Quit,
             Action::Suspend => return Effect::Suspend,
@@ -116,8 +116,7 @@ impl State {
             Action::TenBack => self.head_for(Command::Back(10), true),
             Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
             Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
-            Action::Oldest => self.head_for(Command::Oldest, true),
-            Action::Newest => self.head_for(Command::Newest, true),
+            Action::Oldest | Action::Newest => self.go_to_the_end(action == Action::Newest),
             Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
@@ -132,7 +131,7 @@ impl State {
             Action::Faster => self.go_at(knobs::speed(self.speed, 2.0)),
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
-            Action::Ghost => self.toggle_ghost(told),
+            Action::Ghost => self.toggle_ghost(),
             Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.toggle_scenes(),
@@ -203,11 +202,12 @@ impl State {
         }
     }
 
-    /// Shows the exact run or no longer; `told`: what it costs has been said.
-    fn toggle_ghost(&mut self, told: bool) {
-        let cost = comparison::cost(self.current.scene.spheres.len()).filter(|_| !told && self.comparison.is_none());
+    /// Shows the exact run, once what it costs has been said, or no longer.
+    fn toggle_ghost(&mut self) {
+        let cost = comparison::cost(self.current.scene.spheres.len())
+            .filter(|_| self.cost_told == 0 && self.comparison.is_none());
         if let Some(cost) = cost {
-            self.cost_told = true;
+            self.cost_told = 2;
             let key = self.keymap.keys(Action::Ghost).first().map_or_else(|| "its key".into(), Key::to_string);
             return self.say(format!("{cost}; {key} again starts it."));
         }
@@ -344,6 +344,11 @@ impl State {
         };
         *card = turned;
         true
+    }
+
+    /// To the newest frame, or to the first that is kept.
+    fn go_to_the_end(&mut self, newest: bool) {
+        self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
     /// Goes on until what was waited for last comes again.

@@ -127,6 +127,11 @@ impl Pacer {
         self.line.probing(now);
     }
 
+    /// A request has gone out, and was taken by the system.
+    pub(super) fn asked(&mut self, now: Duration) {
+        self.line.probing(now);
+    }
+
     /// The system has taken what was sent last.
     pub(super) fn sent(&mut self) {
         self.sending = false;

@@ -49,10 +49,9 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let stopped = velocities(all, if nothing_to_stop(&resting, &velocity) { &[] } else { &resting });
-    for (place, &body) in stopped.bodies.iter().enumerate() {
-        bodies[body].v = stopped.vectors[place];
-    }
+    let moves_apart = nothing_approaches(&resting, &velocity) || only_fits(&resting, &velocity);
+    let stopped = velocities(all, if moves_apart { &[] } else { &resting });
+    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
     let slack: Vec<f64> =
         bodies.iter().zip(&velocity).map(|(body, &v)| closed_speed(&Body { v, ..*body }, tick)).collect();
     let opens = |contact: &Resting| {
@@ -85,7 +84,8 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     for (place, &index) in closed.iter().enumerate() {
         settled.forces[index] = held.multipliers[place];
     }
-    settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && settled.turns(&resting[index], bodies));
+    let turns = |contact: &Resting| settled.turns(contact, bodies);
+    settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && turns(&resting[index]));
     for &index in &closed {
         settled.fate[index] = settled.fate_of(index, (&resting[index], gaps[index]), bodies);
     }
@@ -95,17 +95,24 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     settled
 }
 
-/// Whether nothing approaches but by rounding; or by some more where a body lies between two contacts that oppose each other:
-/// at the ends of two walls that a sphere just fits, to stop that much would take all of its speed.
-fn nothing_to_stop(resting: &[Resting], velocity: &[DVec3]) -> bool {
-    let approaches = |contact: &Resting, rounding: f64| {
+/// Whether nothing approaches faster than rounding makes what moves along a wall seem to.
+fn nothing_approaches(resting: &[Resting], velocity: &[DVec3]) -> bool {
+    !resting.iter().any(|contact| {
         let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
-        relative(contact, &|body| velocity[body]).dot(contact.normal) < -rounding * speed
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -BRUSH * speed
+    })
+}
+
+/// Whether nothing approaches but by rounding, and a body lies between two contacts that oppose each other: at the ends of
+/// two walls that a sphere just fits, to stop that much would take all of its speed.
+fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
+    let approaches = |contact: &Resting| {
+        let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -SUM * speed
     };
-    let nothing = |rounding: f64| !resting.iter().any(|contact| approaches(contact, rounding));
     let opposes = |(one, other): (&Resting, &Resting)| one.a == other.a && one.normal.dot(other.normal) < OPPOSED;
-    let mut pairs = resting.iter().enumerate().flat_map(|(k, one)| resting[..k].iter().map(move |other| (one, other)));
-    nothing(BRUSH) || nothing(SUM) && pairs.any(opposes)
+    let pairs = || resting.iter().enumerate().flat_map(|(k, one)| resting[..k].iter().map(move |other| (one, other)));
+    pairs().any(opposes) && !resting.iter().any(approaches)
 }
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
