@@ -1,4 +1,4 @@
-//! Which key does what: the key table, as far as nobody has bound its actions otherwise.
+//! Which key does what: the key table, as far as a configuration binds none of its actions otherwise.
 
 use super::{
     action::Action,
