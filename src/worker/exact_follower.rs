@@ -3,8 +3,8 @@
 //! It never slows the run down: snapshots are handed over, not asked for; a snapshot that comes while the exact run is
 //! still on its way to an earlier one replaces the one waiting; and the thread is the last to get a processor.
 //!
-//! Nor does it grow: at most three snapshots are held (in the mailbox, next, under way; a fourth while one replaces the next), and of two exact runs the later
-//! begins only when the earlier has ended, however often it is asked for.
+//! Nor does it grow: three snapshots are held (in the mailbox, next, under way), a fourth for the moment in which one gives
+//! way to another; and of two exact runs the later begins only when the earlier has ended, however often it is asked for.
 
 use std::{
     sync::Arc,
