@@ -30,6 +30,8 @@ mod card_keys;
 mod comparison;
 #[path = "screens/depth.rs"]
 mod depth;
+#[path = "screens/emulators.rs"]
+mod emulators;
 #[path = "screens/frames.rs"]
 mod frames;
 #[path = "screens/history.rs"]
@@ -38,6 +40,8 @@ mod history;
 mod keymap;
 #[path = "screens/look.rs"]
 mod look;
+#[path = "screens/many.rs"]
+mod many;
 #[path = "screens/mouse.rs"]
 mod mouse;
 #[path = "screens/projections.rs"]

@@ -1,5 +1,7 @@
 //! Does the built program treat a real terminal well? Each test runs it in a pseudo-terminal of its own.
 
+#[path = "terminal/bounds.rs"]
+mod bounds;
 #[path = "terminal/config.rs"]
 mod config;
 #[path = "terminal/detection.rs"]
@@ -187,6 +189,8 @@ fn pasted_text_presses_no_keys() {
     pty.send("\x1b[200~q:quit\r\x1b[201~:");
     pty.send("\x1b[200~dt 1e-4\x1b[201~");
     pty.until_text(":dt 1e-4");
+    pty.send("\x03"); // closes the line
+    pty.until_text("space pause");
     pty.send("\x03");
     assert_eq!(pty.exit(), 0);
 }

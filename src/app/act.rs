@@ -2,6 +2,7 @@
 
 use super::{
     action::{Action, Direction},
+    comparison,
     input::Effect,
     keys::{Code, Key, pairs},
     knobs,
@@ -25,6 +26,7 @@ const CARD_PAGE: usize = 5;
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
         (self.answer, self.news) = (None, None);
+        self.cost_told = self.cost_told.saturating_sub(1);
         // These work whatever is open and is being typed into, but that Ctrl-C closes the `:` line first.
         let typing = matches!(self.open, Open::Prompt(_));
         match self.keymap.action(key).filter(|_| key.ctrl) {
@@ -114,8 +116,7 @@ impl State {
             Action::TenBack => self.head_for(Command::Back(10), true),
             Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
             Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
-            Action::Oldest => self.head_for(Command::Oldest, true),
-            Action::Newest => self.head_for(Command::Newest, true),
+            Action::Oldest | Action::Newest => self.go_to_the_end(action == Action::Newest),
             Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
@@ -201,7 +202,15 @@ impl State {
         }
     }
 
+    /// Shows the exact run, once what it costs has been said, or no longer.
     fn toggle_ghost(&mut self) {
+        let cost = comparison::cost(self.current.scene.spheres.len())
+            .filter(|_| self.cost_told == 0 && self.comparison.is_none());
+        if let Some(cost) = cost {
+            self.cost_told = 2;
+            let key = self.keymap.keys(Action::Ghost).first().map_or_else(|| "its key".into(), Key::to_string);
+            return self.say(format!("{cost}; {key} again starts it."));
+        }
         match self.comparison.take() {
             Some(comparison) => {
                 self.ending = Some(comparison.end());
@@ -335,6 +344,11 @@ impl State {
         };
         *card = turned;
         true
+    }
+
+    /// To the newest frame, or to the first that is kept.
+    fn go_to_the_end(&mut self, newest: bool) {
+        self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
     /// Goes on until what was waited for last comes again.

@@ -9,6 +9,19 @@ use crate::{
     worker::{Ending, ExactFollower, Notify, Report},
 };
 
+/// Bytes per sphere that the exact run beside a run takes, its copies of positions counted: measured with a gas of 10⁶.
+const SPHERE: usize = 1100;
+
+/// From so many spheres on it is said what the exact run costs before it is taken.
+const MANY: usize = 50_000;
+
+/// What the exact run of so many spheres takes, if that is worth a word.
+pub(super) fn cost(spheres: usize) -> Option<String> {
+    let megabytes = (spheres * SPHERE).div_ceil(1_000_000);
+    let said = || format!("The exact run of {spheres} spheres takes about {megabytes} MB and a processor of its own");
+    (spheres >= MANY).then(said)
+}
+
 /// A comparison under way.
 pub(super) struct Comparison {
     /// The scene whose runs are compared: the last reports of another one may still be on their way.

@@ -1,4 +1,4 @@
-//! Which key does what: the key table, as far as nobody has bound its actions otherwise.
+//! Which key does what: the key table, as far as a configuration binds none of its actions otherwise.
 
 use super::{
     action::Action,
@@ -123,15 +123,19 @@ mod tests {
     #[test]
     fn a_key_that_is_bound_anew_does_the_new_thing_and_help_and_hints_say_so() {
         let mut keymap = Keymap::default();
-        keymap.bind(Action::Step, &[Key::char('y'), Key::plain(Code::F(5))]);
-        assert_eq!(keymap.action(Key::char('y')), Some(Action::Step));
-        assert_eq!(keymap.action(Key::plain(Code::F(5))), Some(Action::Step));
-        assert_eq!(keymap.action(Key::char('.')), None);
-        assert!(keymap.hints().contains(&("y".into(), "step")));
-        assert!(keymap.help_rows().contains(&("y F5".into(), "step one frame")));
-        keymap.bind(Action::Step, &[]);
-        assert!(!keymap.help_rows().iter().any(|(_, does)| *does == "step one frame"));
-        assert!(!keymap.hints().iter().any(|(_, word)| *word == "step"));
+        let does = |action| table().find(|row| row.action == action).expect("in the table").does;
+        let told = |keymap: &Keymap, action| {
+            keymap.help_rows().into_iter().find(|(_, told)| *told == does(action)).map(|(keys, _)| keys)
+        };
+        keymap.bind(Action::Restart, &[Key::char('!'), Key::plain(Code::F(5))]);
+        assert_eq!(keymap.action(Key::char('!')), Some(Action::Restart));
+        assert_eq!(keymap.action(Key::plain(Code::F(5))), Some(Action::Restart));
+        assert_eq!(keymap.action(Key::char('r')), None);
+        assert!(keymap.hints().contains(&("!".into(), "restart")));
+        assert_eq!(told(&keymap, Action::Restart).as_deref(), Some("! F5"));
+        keymap.bind(Action::Restart, &[]);
+        assert_eq!(told(&keymap, Action::Restart), None);
+        assert!(!keymap.hints().iter().any(|(_, word)| *word == "restart"));
     }
 
     #[test]

@@ -53,6 +53,8 @@ pub(super) struct State {
     pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.
     pub(super) comparison: Option<Comparison>,
+    /// For so many keys, the one under way among them, it holds that what the exact run costs was told just before.
+    pub(super) cost_told: u8,
     /// The exact run shown before, while its thread ends.
     pub(super) ending: Option<Ending>,
     /// The scene that comes next, if one is being opened, and the channel that it arrives on.
@@ -99,6 +101,7 @@ impl State {
             has_target: false,
             until: None,
             comparison: None,
+            cost_told: 0,
             ending: None,
             loading: None,
             errands: None,

@@ -76,6 +76,7 @@ impl Judge {
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
         let explained = self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
         let impacts = contacts.iter().filter(|row| row.class == Class::Collide).count();
+        contacts.iter().for_each(|row| self.energy.allow_series(model, state, row));
         self.energy.look(model, state, impacts as u64, explained, found);
         self.before.clone_from(state);
         self.held = held;

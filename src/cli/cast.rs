@@ -23,7 +23,7 @@ use crate::view;
 /// Pictures per second of the film.
 const RATE: f64 = 30.0;
 
-/// Markers, at most: more would be of no use to somebody who looks for one.
+/// Markers, at most: among more, one would not be found.
 const MOST_MARKERS: usize = 1000;
 
 /// What is filmed, and how.

@@ -174,8 +174,10 @@ impl Talk {
         match self.keymap.action(key) {
             Some(Action::Help) => self.help()?,
             Some(Action::Quit) => return Ok(true),
-            Some(Action::Prompt) => writeln!(self.out, "An order is a line of its own, such as :goto 3.25.")?,
-            Some(Action::Inspector) => self.card("")?,
+            Some(Action::Prompt | Action::Until) => {
+                writeln!(self.out, "An order is a line of its own, such as :goto 3.25, or :until rest.")?;
+            }
+            Some(Action::Inspector | Action::Card) => self.card("")?,
             Some(
                 Action::Scenes
                 | Action::Mouse
@@ -187,7 +189,9 @@ impl Talk {
                 | Action::ZoomIn
                 | Action::ZoomOut
                 | Action::WholeScene
-                | Action::Follow,
+                | Action::Follow
+                | Action::PreviousTrial
+                | Action::NextTrial,
             ) => writeln!(self.out, "{key} has a use on a screen only.")?,
             None => writeln!(self.out, "{key} is bound to nothing.")?,
             Some(_) => self.heed(Input::Key(key))?,

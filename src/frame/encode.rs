@@ -16,6 +16,9 @@ use super::{
 /// Blanks at the end of a row from which on erasing is shorter than writing them.
 const ERASE_FROM: usize = 4;
 
+/// So many cells of a row that become blank may be worth erasing the row and writing the others again.
+const WORTH_ERASING: usize = 8;
+
 /// Turns buffers into bytes; remembers what the terminal shows.
 ///
 /// The terminal has to be in raw mode: a line feed must not return the carriage.
@@ -125,8 +128,40 @@ impl Writer {
         }
     }
 
-    /// Writes what differs in a row.
+    /// Writes what differs in a row, where it is shorter by erasing the row from the first difference on.
     fn row(&mut self, y: u16, old: &[Glyph], new: &[Glyph]) {
+        let (begin, before) = (self.out.len(), (self.pen, self.place));
+        self.differences(y, old, new);
+        let blanked = |(old, new): (&Glyph, &Glyph)| new.looks_like(&BLANK) && !old.looks_like(&BLANK);
+        if old.iter().zip(new).filter(|pair| blanked(*pair)).count() < WORTH_ERASING {
+            return;
+        }
+        let (plain, after) = (self.out.split_off(begin), (self.pen, self.place));
+        (self.pen, self.place) = before;
+        self.erased(y, old, new);
+        if self.out.len() - begin >= plain.len() {
+            self.out.truncate(begin);
+            self.out.extend(plain);
+            (self.pen, self.place) = after;
+        }
+    }
+
+    /// Erases a row from the first difference on, and writes what is not blank there.
+    fn erased(&mut self, y: u16, old: &[Glyph], new: &[Glyph]) {
+        let differs = |x: &usize| !new[*x].looks_like(&old[*x]);
+        let Some(mut first) = (0..new.len()).find(differs) else { return };
+        // Never the right half of a wide glyph alone, of either.
+        while first > 0 && (old[first].width == 0 || new[first].width == 0) {
+            first -= 1;
+        }
+        self.go(y, first as u16, new);
+        self.erase_rest();
+        let rest = old[..first].iter().copied().chain(vec![BLANK; new.len() - first]).collect::<Vec<_>>();
+        self.differences(y, &rest, new);
+    }
+
+    /// Writes cell by cell what differs in a row.
+    fn differences(&mut self, y: u16, old: &[Glyph], new: &[Glyph]) {
         let differs = |x: usize| match (old[x].width, new[x].width) {
             (_, 0) => false,  // written with its left half
             (0, 1..) => true, // its left half is gone, so the terminal may have blanked it

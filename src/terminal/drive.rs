@@ -234,8 +234,12 @@ impl Driver {
     /// # Errors
     /// If a thread panics meanwhile.
     fn leave(&mut self, briefly: bool) -> Result<(), Error> {
-        self.guard.session().leave_screen();
+        // Until the terminal knows that it shall not, it reports the mouse; its answer tells when that is over.
+        let farewell: &[u8] = if self.mouse.0 { REQUEST } else { b"" };
         let begin = self.clock.elapsed();
+        if self.guard.session().leave_screen(farewell) && self.mouse.0 {
+            self.pacer.asked(begin);
+        }
         while let Some(patience) = self.pacer.answers_within() {
             let end = begin + if briefly { LEAVE } else { patience };
             match self.events.recv_timeout(end.saturating_sub(self.clock.elapsed())) {

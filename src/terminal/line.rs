@@ -36,6 +36,9 @@ const WIDEST: u32 = 4;
 const WIDEST_THIN: u32 = 2;
 const THIN: Duration = Duration::from_millis(5);
 
+/// A picture that keeps the line busy for longer than this makes the answer to a key wait long.
+const LONG: Duration = Duration::from_millis(250);
+
 /// So many pictures in a row tell how long a byte takes; the quickest counts: a busy machine is no thin line, and what
 /// had to wait for other pictures tells nothing.
 const SAMPLES: usize = 8;
@@ -233,11 +236,15 @@ impl Line {
     }
 
     /// Shortest time between two pictures. A line that a picture keeps busy is left alone for as long again, so that the
-    /// answer to a key, which may come at any moment, finds it free as often as not.
+    /// answer to a key, which may come at any moment, finds it free as often as not; and for half as long again where it
+    /// would have to wait long.
     pub(super) fn interval(&self) -> Duration {
         match self.answers {
             Answers::Fail => BLIND,
-            _ => self.busy(self.last).unwrap_or_default() * 2,
+            _ => {
+                let busy = self.busy(self.last).unwrap_or_default();
+                busy * 2 + if busy > LONG { busy / 2 } else { Duration::ZERO }
+            }
         }
     }
 

@@ -8,8 +8,12 @@ use super::{budget::Budget, line::Line};
 /// A window that is being dragged settles for this long before it is drawn again.
 const SETTLE: Duration = Duration::from_millis(30);
 
+/// Sizes that come sooner after each other are those of a drag, which is slow to settle: a hand pauses.
+const DRAG: Duration = Duration::from_millis(500);
+const SETTLE_DRAG: Duration = Duration::from_millis(120);
+
 /// A window that never settles is drawn this often: each time it is a whole picture, and a drag has many sizes.
-const UNSETTLED: Duration = Duration::from_millis(600);
+const UNSETTLED: Duration = Duration::from_millis(1000);
 
 /// The simulation's answer to a key is awaited for this long before a picture without it is drawn.
 const ANSWER: Duration = Duration::from_millis(30);
@@ -51,6 +55,8 @@ pub(super) struct Pacer {
     resized: Option<(Duration, Duration)>,
     /// Last change of size.
     size_since: Option<Duration>,
+    /// How long a size has to last before it is drawn.
+    settle: Duration,
     line: Line,
     budget: Budget,
 }
@@ -66,6 +72,7 @@ impl Pacer {
             sending: false,
             resized: None,
             size_since: None,
+            settle: SETTLE,
             line: Line::new(),
             budget: Budget::new(bytes),
         }
@@ -97,6 +104,8 @@ impl Pacer {
     pub(super) fn resized(&mut self, now: Duration) {
         let first = self.resized.map_or(now, |(first, _)| first);
         self.resized = Some((first, now));
+        let drag = self.size_since.is_some_and(|since| now < since + DRAG);
+        self.settle = if drag { SETTLE_DRAG } else { SETTLE };
         self.size_since = Some(now);
     }
 
@@ -115,6 +124,11 @@ impl Pacer {
     /// A request goes out alone.
     pub(super) fn probing(&mut self, now: Duration) {
         self.sending = true;
+        self.line.probing(now);
+    }
+
+    /// A request has gone out, and was taken by the system.
+    pub(super) fn asked(&mut self, now: Duration) {
         self.line.probing(now);
     }
 
@@ -142,9 +156,9 @@ impl Pacer {
 
     pub(super) fn next(&mut self, now: Duration) -> Next {
         self.line.tick(now);
-        let settled = self.resized.map(|(first, last)| (last + SETTLE).min(first + UNSETTLED));
+        let settled = self.resized.map(|(first, last)| (last + self.settle).min(first + UNSETTLED));
         // Between two sizes of a drag a picture of the run would be of no more use than one of a size.
-        let calm = self.size_since.map_or(Duration::ZERO, |since| since + SETTLE);
+        let calm = self.size_since.map_or(Duration::ZERO, |since| since + self.settle);
         let changed = self.dirty.map(|due| due.max(calm));
         let Some(due) = settled.or(self.urgent).or(changed).filter(|_| !self.sending) else { return Next::Rest };
         let urgent = settled.or(self.urgent).is_some();

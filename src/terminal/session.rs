@@ -130,26 +130,27 @@ impl Session {
 
     /// Undoes [`Session::take`]; does nothing if that is done already. Never waits long, whatever the terminal does.
     pub(super) fn give_back(&self) {
-        self.leave_screen();
+        self.leave_screen(b"");
         if self.raw.swap(false, Ordering::AcqRel) {
             let _ = terminal::disable_raw_mode(); // fails only on a terminal that is gone
         }
     }
 
     /// Shows what was on the screen before; what the terminal sends is still not echoed. The first half of
-    /// [`Session::give_back`].
-    pub(super) fn leave_screen(&self) {
+    /// [`Session::give_back`]. Whether `first` was sent, too, before the rest.
+    pub(super) fn leave_screen(&self, first: &[u8]) -> bool {
         if !self.ours.swap(false, Ordering::AcqRel) {
-            return;
+            return false;
         }
         let deadline = Instant::now() + FAREWELL;
-        if let Some(screen) = self.lock_until(deadline)
-            && screen.send(GOODBYE, || Instant::now() < deadline) != Ok(true)
-        {
+        let Some(screen) = self.lock_until(deadline) else { return false };
+        let sent = screen.send(&[first, GOODBYE].concat(), || Instant::now() < deadline) == Ok(true);
+        if !sent {
             // It is full of pictures that are not read any more; they are worth less than a usable shell.
             let _ = tcflush(&screen.file, QueueSelector::OFlush);
             let _ = screen.send(GOODBYE, || false);
         }
+        sent
     }
 
     /// Writes all of a picture drawn when the terminal had been taken `takes` times, waiting for the terminal as long as

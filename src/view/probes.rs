@@ -135,7 +135,7 @@ fn draw_band(canvas: &mut Canvas, lines: [f64; 2], sheet: &Sheet) {
 fn draw_legend(search: &Search, [range, longest]: [f64; 2], area: Rect, sheet: &mut Sheet) {
     let faint = sheet.palette.faint();
     let top = format::digits(range, 0);
-    sheet.put_right(area, &top, faint);
+    sheet.put(area, &top, faint); // on the right is the longest step, too deep in most searches
     let low = Rect { y: area.y + area.height.saturating_sub(1), height: 1, ..area };
     let end = format!("{} s", format::setting(longest));
     sheet.put_right(low, &end, faint);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use carom::audit::{Fault, Finding, Judge};
+use carom::audit::Judge;
 use carom::measure::thread_cpu;
 use carom::physics::wall::{Part, touch};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
@@ -50,8 +50,6 @@ pub(crate) struct Met {
     pub(crate) curved_time: f64,
     /// Slices of [`SLICE`] turns of the method's loop.
     pub(crate) slices: u64,
-    /// Scenes with findings of a kind that is known to be open.
-    pub(crate) open: u64,
     /// Scenes whose run took more than 1 s, and more than 10 s, of the processor, the judge not counted.
     pub(crate) slow: u64,
     pub(crate) very_slow: u64,
@@ -82,17 +80,6 @@ pub(crate) fn check(generator: &Generator, seed: u64, halves: u32, met: &mut Met
         .map_err(|failure| Failure { text: format!("seed {seed} at t = {}: {}", run.time(), failure.text), ..failure })
 }
 
-/// Whether a finding is of a kind that the engine is known not to master everywhere yet: it is counted, and fails only where
-/// `CAROM_CAMPAIGN_STRICT` is set. An idle contact of a curved island that has opened slowly, and carries again, is held at
-/// the gap that it has come to, up to 1e-7 m; a sphere that meets one on a curve gets a velocity that is off by up to 1e-5 m/s.
-fn is_open(finding: &Finding) -> bool {
-    match finding.fault {
-        Fault::RestGap => finding.value <= 1e-7,
-        Fault::Velocity | Fault::Approach => finding.value <= 1e-5,
-        _ => false,
-    }
-}
-
 pub(crate) fn fail(kind: &str, text: String) -> Result<(), Failure> {
     Err(Failure { kind: kind.into(), text })
 }
@@ -104,7 +91,6 @@ fn go_on(
     halves: u32,
     met: &mut Met,
 ) -> Result<(), Failure> {
-    let strict = std::env::var_os("CAROM_CAMPAIGN_STRICT").is_some();
     // a frame that is judged has cost at least this many turns, if it was no slice of its own
     let mut frames = 0;
     let mut looks = Halves::of(run);
@@ -120,11 +106,9 @@ fn go_on(
                 let events = run.take_events();
                 judge.frame(run, &events);
                 met.count(run, &events);
-                let rows = judge.findings().rows();
-                if let Some(finding) = rows.iter().find(|finding| strict || !is_open(finding)) {
+                if let Some(finding) = judge.findings().rows().first() {
                     return fail(&format!("{:?}", finding.fault), finding.to_string());
                 }
-                met.open = u64::from(!rows.is_empty());
                 if generator.boxed {
                     looks.look(run)?;
                 }
@@ -198,7 +182,6 @@ impl Met {
         self.creases += other.creases;
         self.pair_rests += other.pair_rests;
         self.edge_rests += other.edge_rests;
-        self.open += other.open;
         self.releases += other.releases;
         self.collapses += other.collapses;
         self.curved += other.curved;

@@ -27,3 +27,6 @@ pub(crate) const LABORIOUS: [(u64, u32); 73] = [
     (12512, 14), (12666, 11), (12869, 9), (13207, 11), (13365, 13), (13397, 13), (13406, 14), (13587, 13), (13917, 6), (13986, 12),
     (14142, 14), (14757, 12), (17608, 20),
 ];
+
+/// Stacks that stood still at an instant, or took a thousand settlements for one contact that let go.
+pub(crate) const MENDED_STACKS: [(u64, u32); 3] = [(16, 3), (118, 2), (148, 2)];

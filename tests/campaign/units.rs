@@ -24,6 +24,10 @@ const LEAST: f64 = 1e-11;
 /// summed, and the end of the series moves with it.
 const SUMMED: f64 = 2e-8;
 
+/// Normals of two walls at one point are the same up to rounding of the places, which are some metres and reach back to radii of
+/// some decimetres.
+const SHARED: f64 = 1e-12;
+
 /// A scene with lengths in units of `length` and times in units of `time`, places off by `off` of themselves.
 fn in_units(scene: &Scene, length: f64, time: f64, off: f64) -> Scene {
     let (speed, pull) = (length / time, length / (time * time));
@@ -83,7 +87,10 @@ fn all_events(scene: &Scene, dt: f64, t: f64) -> (Vec<Contact>, Option<String>) 
 
 /// How far two events are apart, lengths and times taken in these units; none if they are different ones.
 fn apart(one: &Contact, other: &Contact, length: f64, time: f64) -> Option<f64> {
-    let same = one.key() == other.key() && one.class == other.class;
+    // at the edge that two walls share, rounding says which of them is touched
+    let shared = one.kind == Kind::Wall && other.kind == Kind::Wall && one.a == other.a;
+    let shared = shared && (one.normal - other.normal).length() <= SHARED;
+    let same = (one.key() == other.key() || shared) && one.class == other.class;
     let off = (one.point - other.point / length).length() + (one.time - other.time / time).abs();
     let speeds = (one.approach_speed - other.approach_speed * time / length).abs();
     same.then_some(off + speeds)

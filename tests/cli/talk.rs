@@ -39,6 +39,15 @@ fn it_goes_to_a_collision_and_shows_its_card() {
 }
 
 #[test]
+fn it_runs_until_what_is_waited_for_and_steps_back() {
+    let said = talk("paper-0", ":until rest\n,\nu\ncollision\nq\n").succeeds().out;
+    let times: Vec<f64> =
+        said.lines().filter_map(|line| line.strip_prefix("At ")?.strip_suffix(" seconds.")?.parse().ok()).collect();
+    assert!(times.len() >= 3 && times[1] > 1.0 && times[2] < times[1], "{said}");
+    assert!(said.contains("An order is a line of its own"), "{said}");
+}
+
+#[test]
 fn orders_are_obeyed_in_turn_and_wrong_ones_are_told() {
     let said =
         talk("paper-0", ":goto 2\n:tolerance 1e-6\n.\n:nonsense\n:hash\n?\nZ\n\u{1b}[A\u{202e}\nq\n").succeeds().out;

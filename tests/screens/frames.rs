@@ -8,6 +8,8 @@ use ratatui::{
     style::{Color, Modifier, Style},
 };
 
+use crate::emulators::Terminals;
+
 const SYMBOLS: [&str; 13] = [" ", " ", " ", "a", "b", "⣿", "⠁", "│", "▀", "あ", "漢", "e\u{301}", ""];
 
 fn color() -> impl Strategy<Value = Color> {
@@ -55,54 +57,6 @@ fn changes(width: u16, height: u16) -> impl Strategy<Value = Vec<(Position, Cell
     proptest::collection::vec((place, cell()), 0..30)
 }
 
-fn parser(width: u16, height: u16) -> vt100::Parser {
-    vt100::Parser::new(height.try_into().expect("not 0"), width.try_into().expect("not 0"), 0)
-}
-
-fn shown(color: Color) -> vt100::Color {
-    match color {
-        Color::Red => vt100::Color::Idx(1),
-        Color::LightBlue => vt100::Color::Idx(12),
-        Color::DarkGray => vt100::Color::Idx(8),
-        Color::Indexed(index) => vt100::Color::Idx(index),
-        Color::Rgb(r, g, b) => vt100::Color::Rgb(r, g, b),
-        _ => vt100::Color::Default,
-    }
-}
-
-/// Compares every cell of the emulated screen with the buffer. A blank shows its background only.
-fn assert_shows(parser: &vt100::Parser, buffer: &Buffer) {
-    let area = buffer.area();
-    for y in 0..area.height {
-        let mut hidden = false;
-        for x in 0..area.width {
-            let (cell, on_screen) = (&buffer[(x, y)], parser.screen().cell(y, x).expect("on the screen"));
-            let at = format!("column {x}, row {y}: {cell:?} but the terminal shows {on_screen:?}");
-            if std::mem::take(&mut hidden) {
-                assert!(on_screen.is_wide_continuation(), "{at}");
-                continue;
-            }
-            hidden = matches!(cell.symbol(), "あ" | "漢") && x + 1 < area.width;
-            let expected = match cell.symbol() {
-                "" => " ",
-                "あ" | "漢" if !hidden => " ", // no room for it
-                symbol => symbol,
-            };
-            let contents = if on_screen.has_contents() { on_screen.contents() } else { " " };
-            assert_eq!(contents, expected, "{at}");
-            assert_eq!(on_screen.bgcolor(), shown(cell.bg), "{at}");
-            assert_eq!(on_screen.inverse(), cell.modifier.contains(Modifier::REVERSED), "{at}");
-            assert_eq!(on_screen.underline(), cell.modifier.contains(Modifier::UNDERLINED), "{at}");
-            if expected != " " || on_screen.inverse() || on_screen.underline() {
-                assert_eq!(on_screen.fgcolor(), shown(cell.fg), "{at}");
-                assert_eq!(on_screen.bold(), cell.modifier.contains(Modifier::BOLD), "{at}");
-                assert_eq!(on_screen.dim(), cell.modifier.contains(Modifier::DIM), "{at}");
-                assert_eq!(on_screen.italic(), cell.modifier.contains(Modifier::ITALIC), "{at}");
-            }
-        }
-    }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -112,36 +66,36 @@ proptest! {
         steps in proptest::collection::vec(changes(23, 6), 1..4),
         whole in buffer(23, 6),
     ) {
-        let (mut encoder, mut parser) = (Encoder::new(), parser(23, 6));
+        let (mut encoder, mut parser) = (Encoder::new(), Terminals::new(23, 6));
         parser.process(b"what was there before, in \x1b[31;44;7mcolours");
         let mut buffer = first;
         parser.process(&encoder.encode(&buffer, None));
-        assert_shows(&parser, &buffer);
+        parser.assert_show(&buffer);
         for step in steps {
             for (at, cell) in step {
                 buffer[at] = cell;
             }
             parser.process(&encoder.encode(&buffer, None));
-            assert_shows(&parser, &buffer);
+            parser.assert_show(&buffer);
         }
         parser.process(&encoder.encode(&whole, None));
-        assert_shows(&parser, &whole);
+        parser.assert_show(&whole);
     }
 
     #[test]
     fn another_size_repaints_everything(first in buffer(20, 5), second in buffer(9, 7)) {
-        let (mut encoder, mut parser) = (Encoder::new(), parser(20, 5));
+        let (mut encoder, mut parser) = (Encoder::new(), Terminals::new(20, 5));
         parser.process(&encoder.encode(&first, None));
-        parser.screen_mut().set_size(7.try_into().expect("not 0"), 9.try_into().expect("not 0"));
+        parser.resize(9, 7);
         parser.process(&encoder.encode(&second, None));
-        assert_shows(&parser, &second);
+        parser.assert_show(&second);
     }
 
     #[test]
     fn coloured_text_shows_the_buffer(buffer in buffer(17, 4)) {
-        let mut parser = parser(17, 4);
+        let mut parser = Terminals::new(17, 4);
         parser.process(ansi(&buffer).trim_end_matches('\n').replace('\n', "\r\n").as_bytes());
-        assert_shows(&parser, &buffer);
+        parser.assert_show(&buffer);
     }
 }
 
@@ -189,19 +143,18 @@ fn named_colours_are_sent_in_their_short_forms_and_reset_once() {
 
 #[test]
 fn the_cursor_is_hidden_unless_it_has_a_place() {
-    let (mut encoder, mut parser) = (Encoder::new(), parser(8, 2));
+    let (mut encoder, mut parser) = (Encoder::new(), Terminals::new(8, 2));
     let mut buffer = lines(&["        ", ":dt     "]);
     parser.process(&encoder.encode(&buffer, None));
-    assert!(parser.screen().hide_cursor());
+    parser.assert_cursor(None);
     parser.process(&encoder.encode(&buffer, Some(Position::new(3, 1))));
-    assert!(!parser.screen().hide_cursor());
-    assert_eq!(parser.screen().cursor_position(), (1, 3));
+    parser.assert_cursor(Some((3, 1)));
     buffer[(0, 0)].set_char('x');
     parser.process(&encoder.encode(&buffer, Some(Position::new(3, 1))));
-    assert_eq!(parser.screen().cursor_position(), (1, 3), "drawing moved it, so it is put back");
+    parser.assert_cursor(Some((3, 1))); // drawing moved it, so it is put back
     assert_eq!(encoder.encode(&buffer, Some(Position::new(3, 1))), b"", "nothing to move");
     parser.process(&encoder.encode(&buffer, None));
-    assert!(parser.screen().hide_cursor());
+    parser.assert_cursor(None);
 }
 
 #[test]

@@ -212,6 +212,11 @@ impl Pty {
         self.watch = watch::Watch::within(self.pid, time);
     }
 
+    /// Its process id.
+    pub(crate) fn pid(&self) -> i32 {
+        self.pid.as_raw_nonzero().get()
+    }
+
     /// Memory that the program has in use, bytes; 0 where the system has no `/proc`.
     pub(crate) fn memory(&self) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.pid.as_raw_nonzero())).unwrap_or_default();

@@ -5,6 +5,7 @@ use std::fs;
 use crate::{
     HINT, Start,
     pty::{Pty, carom},
+    time,
 };
 
 /// A paused program with a configuration of that text.
@@ -47,6 +48,22 @@ fn the_command_line_wins_over_the_configuration_and_that_over_the_environment() 
     let mut pty = configured(text, &["paper-2", "--marker", "braille", "--color", "never"]);
     assert!(pty.text().contains("paper-2") && !pty.text().is_ascii(), "{}", pty.text());
     assert!(!pty.output.windows(3).any(|bytes| bytes == b"[3;" || bytes == b"38;"), "no colours");
+    pty.send("q");
+    assert_eq!(pty.exit(), 0);
+}
+
+#[test]
+fn pictures_are_as_few_as_the_configuration_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("config.ron");
+    fs::write(&path, "(frame_rate: 2)").expect("it can be written");
+    let mut pty = carom(&["box-gas", "--config", path.to_str().expect("its name is text")]).run();
+    pty.until_text(HINT);
+    let from = pty.output.len();
+    pty.until("three seconds", |screen| time(screen).is_some_and(|t| t > 3.0));
+    // Six are due; half as many again: a run that does not keep up with the wall passes its seconds later.
+    let pictures = pty.pictures_since(from);
+    assert!((3..=10).contains(&pictures), "{pictures} pictures in 3 s");
     pty.send("q");
     assert_eq!(pty.exit(), 0);
 }

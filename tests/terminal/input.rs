@@ -56,7 +56,7 @@ fn a_string_that_comes_byte_by_byte_presses_no_keys_either() {
 #[test]
 fn a_torn_arrow_never_changes_the_scene() {
     let mut pty = silent();
-    for piece in ["\x1b", "[", "D"] {
+    for piece in ["\x1b", "[", "A"] {
         pty.send(piece);
         let before = time(pty.screen()).expect("a time is shown");
         pty.until("a tenth of a second", |screen| time(screen).is_some_and(|t| t > before + 0.1));

@@ -71,6 +71,27 @@ fn stopped_it_is_off_and_continued_it_is_on_again() {
 }
 
 #[test]
+fn reports_under_way_when_it_quits_are_not_typed_at_the_shell() {
+    let arguments = ["-c", SHELL, carom(&[]).program, "paper-1", "--paused"];
+    let mut pty = Start { program: "bash", arguments: &arguments, ..carom(&[]) }.run();
+    pty.until_text(HINT);
+    pty.send("%");
+    pty.until_text("Mouse on");
+    while pty.read(Duration::from_millis(200)).is_some() {} // all is answered
+    pty.answers = false;
+    pty.send("q");
+    pty.until_bytes(0, b"\x1b[?1049l");
+    pty.send("\x1b[<65;10;5M\x1b[<65;11;6M");
+    pty.answer(1);
+    pty.until_text("stopped 0");
+    pty.until_text("echoke"); // the last word of `stty -a`
+    assert!(!pty.text().contains("<65") && !pty.text().contains("5M"), "{}", pty.text());
+    pty.send("\n");
+    pty.until_text("ended");
+    pty.exit();
+}
+
+#[test]
 fn a_click_selects_however_its_report_is_torn() {
     // The sphere of `paper-0` hangs in the upper left corner of both views.
     let mut pty = with_mouse(&["paper-0", "--paused"]);

@@ -193,17 +193,19 @@ fn nothing_is_drawn_while_the_system_has_not_taken_the_last_picture() {
 #[test]
 fn a_dragged_window_is_drawn_when_it_settles_or_now_and_then() {
     let mut pacer = Pacer::new(30, None);
-    for ms in (0..=560).step_by(20) {
+    for ms in (0..=960).step_by(20) {
         pacer.resized(START + ms * MS);
         pacer.changed(START + ms * MS);
     }
-    assert_eq!(pacer.next(START + 560 * MS), Next::Wait(30 * MS));
-    pacer.resized(START + 580 * MS);
-    assert_eq!(pacer.next(START + 580 * MS), Next::Wait(20 * MS));
-    assert_eq!(pacer.next(START + 600 * MS), Next::Draw);
-    pacer.drawn(START + 600 * MS);
-    pacer.changed(START + 601 * MS);
-    assert_eq!(pacer.next(START + 601 * MS), Next::Wait(33_333_333 * Duration::from_nanos(1) - MS), "its turn");
+    assert_eq!(pacer.next(START + 960 * MS), Next::Wait(40 * MS));
+    pacer.resized(START + 980 * MS);
+    assert_eq!(pacer.next(START + 980 * MS), Next::Wait(20 * MS));
+    assert_eq!(pacer.next(START + 1000 * MS), Next::Draw);
+    pacer.drawn(START + 1000 * MS);
+    pacer.changed(START + 1001 * MS);
+    assert_eq!(pacer.next(START + 1001 * MS), Next::Wait(99 * MS), "the hand may only pause");
+    pacer.resized(START + 2000 * MS);
+    assert_eq!(pacer.next(START + 2000 * MS), Next::Wait(30 * MS), "a size alone");
 }
 
 #[test]
@@ -216,7 +218,7 @@ fn forty_sizes_in_a_second_of_a_running_run_are_two_pictures() {
         run.go(25 * MS);
     }
     assert_eq!(run.model.shown.len() - before, 1, "while it is dragged");
-    run.go(6 * MS);
+    run.go(125 * MS);
     assert_eq!(run.model.shown.len() - before, 2, "and when it has settled");
 }
 

@@ -34,6 +34,9 @@ const FIRST: f64 = 0.05;
 /// a second, and so short an arc costs a quarter. The classical method of order 4 is off by less than 1e-17 radii then.
 const BRIEF: f64 = 1e-3;
 
+/// Up to this share of a brief arc a change is looked for.
+const SOON: f64 = 0.125;
+
 /// Up to this share of an arc v of its polynomial is as good as integrated: its error grows as the square.
 const BEGINNING: f64 = 1e-3;
 
@@ -137,12 +140,21 @@ impl Arc {
         Arc { end: start.clone(), start, span: 0.0, length: 0.0, changes: true, next: 0.0, loaded, brief: true }
     }
 
-    /// An arc so short that neither its integration nor its polynomial needs looking at.
+    /// An arc so short that neither its integration nor its polynomial needs looking at. Where a contact changes on the way
+    /// but not soon, the arc ends before: most of these arcs are interrupted long before, and when that is need not be found.
     fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
         let bodies = motion.step_rk4(&start.bodies, span);
         let end = Ends { a: motion.accelerations(&bodies).0, bodies };
         let mut arc = Arc { start, end, span, length: span, changes: false, next: span, loaded, brief: true };
-        arc.cut_short(motion, &LOOKS[3..]);
+        let before = motion.marks(&arc.start.bodies);
+        let holds = |time: f64| motion.distance_to_change(&arc.at(time), &before) >= 0.0;
+        if !holds(span) {
+            if holds(SOON * span) {
+                arc.length = SOON * span;
+            } else {
+                arc.cut_short(motion, &[SOON]);
+            }
+        }
         arc
     }
 

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
-use crate::physics::events::rounding::{HOP, SUM};
+use crate::physics::events::rounding::{BRUSH, HOP, SUM};
 use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
 
 /// Cosine of the angle between the normals of contacts that oppose each other: within a millirad of straight.
@@ -49,10 +49,9 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let stopped = velocities(all, if only_fits(&resting, &velocity) { &[] } else { &resting });
-    for (place, &body) in stopped.bodies.iter().enumerate() {
-        bodies[body].v = stopped.vectors[place];
-    }
+    let moves_apart = nothing_approaches(&resting, &velocity) || only_fits(&resting, &velocity);
+    let stopped = velocities(all, if moves_apart { &[] } else { &resting });
+    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
     let slack: Vec<f64> =
         bodies.iter().zip(&velocity).map(|(body, &v)| closed_speed(&Body { v, ..*body }, tick)).collect();
     let opens = |contact: &Resting| {
@@ -96,6 +95,14 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     settled
 }
 
+/// Whether nothing approaches faster than rounding makes what moves along a wall seem to.
+fn nothing_approaches(resting: &[Resting], velocity: &[DVec3]) -> bool {
+    !resting.iter().any(|contact| {
+        let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -BRUSH * speed
+    })
+}
+
 /// Whether nothing approaches but by rounding, and a body lies between two contacts that oppose each other: at the ends of
 /// two walls that a sphere just fits, to stop that much would take all of its speed.
 fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
@@ -126,10 +133,8 @@ impl Settled {
         if self.forces[index] > 0.0 {
             return Fate::Loaded;
         }
+        let (opening, noise) = (self.opening(contact, bodies), self.noise(contact, bodies));
         let v = relative(contact, &|body| bodies[body].v);
-        let a = relative(contact, &|body| self.a[body]);
-        let opening = contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v);
-        let noise = self.noise(contact, bodies);
         let parts = contact.normal.dot(v) > 0.0 && gap > OPENED * bodies[contact.a].r;
         if self.curved && opening <= BARELY * pull(bodies) && !parts {
             // the chord that stands for a curved motion could press it: it stays until the arc shows that it opens
@@ -137,6 +142,13 @@ impl Settled {
         }
         // unpressed and turning, it lets go: the next approach is a contact like any other
         if opening > noise || parts || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
+    }
+
+    /// How fast the normal velocity of a contact grows, m/s².
+    fn opening(&self, contact: &Resting, bodies: &[Body]) -> f64 {
+        let v = relative(contact, &|body| bodies[body].v);
+        let a = relative(contact, &|body| self.a[body]);
+        contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v)
     }
 
     /// Size of the rounding of relative accelerations, m/s².
@@ -202,12 +214,13 @@ impl Settled {
             return;
         }
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
-        let closes = |(fate, holds): (&mut Fate, bool)| {
-            if holds && *fate == Fate::Opening {
-                *fate = Fate::Idle;
+        for index in (0..holds.len()).filter(|&index| holds[index]) {
+            // what accelerates apart does so whatever rounding has made of its velocity: on parabolas nothing looks again
+            let parts = !self.curved && self.opening(&resting[index], bodies) > self.noise(&resting[index], bodies);
+            if self.fate[index] == Fate::Opening && !parts {
+                self.fate[index] = Fate::Idle;
             }
-        };
-        self.fate.iter_mut().zip(holds).for_each(closes);
+        }
     }
 
     /// An idle contact whose bodies drift apart lets go, however slowly: what would meet there again must be seen.

@@ -239,7 +239,8 @@ impl Rests {
     /// Whether this contact rests.
     #[inline]
     pub(crate) fn holds(&self, key: Key) -> bool {
-        !self.of.is_empty() && !self.of[key.1].is_empty() && self.held.contains_key(&key)
+        // a sphere has few contacts: quicker to look through than the map of all
+        !self.of.is_empty() && self.of[key.1].contains(&key)
     }
 
     /// The contacts of sphere `i` that rest.

@@ -229,7 +229,10 @@ impl Mechanics {
         for &key in keys {
             let due = |held: &&mut RestingContact| held.settles_at <= self.trajectories.now;
             let held = Some(self.rests.kept_mut(key));
-            let Some(rub) = held.filter(due).and_then(|held| held.rub.take()) else { continue };
+            let Some(held) = held.filter(due) else { continue };
+            let Some(rub) = held.rub.take() else { continue };
+            // what the bounces have taken is told as the begin of the rest, though something has told of one before
+            held.announced = false;
             let (normal, line) =
                 (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(key.1));
             self.trajectories.rewrite(key.1, line.x, rub.end(line.v, normal));
