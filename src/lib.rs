@@ -30,6 +30,7 @@
 #[doc(hidden)]
 pub mod app;
 pub mod audit;
+pub mod certify;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

@@ -2,6 +2,8 @@
 
 #[path = "cli/bounds.rs"]
 mod bounds;
+#[path = "cli/certify.rs"]
+mod certify;
 #[path = "cli/config.rs"]
 mod config;
 #[path = "cli/files.rs"]

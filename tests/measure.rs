@@ -1,5 +1,9 @@
 //! Does `measure` tell the truth: errors against closed forms, horizons against the prototypes', parts against the whole?
 
+#[path = "measure/arithmetic.rs"]
+mod arithmetic;
+#[path = "measure/certified.rs"]
+mod certified;
 #[path = "measure/command.rs"]
 mod command;
 #[path = "measure/figures.rs"]
@@ -10,6 +14,8 @@ mod program;
 #[allow(dead_code)]
 #[path = "support/pty.rs"]
 mod pty;
+#[path = "support/random.rs"]
+mod random;
 mod support;
 #[path = "support/watch.rs"]
 mod watch;

@@ -135,6 +135,10 @@ pub(super) struct Run {
     /// Have an independent judge look at every frame and event; exit code 1 if it finds anything
     #[arg(long)]
     pub(super) check: bool,
+    /// Run by exact (without --method), follow it in arithmetic of 32 digits, and state its own error and until when that
+    /// is known
+    #[arg(long, conflicts_with = "accuracy")]
+    pub(super) certify: bool,
     #[command(flatten)]
     pub(super) solver: Solver,
 }
@@ -271,6 +275,11 @@ impl Solver {
     pub(super) fn accuracy(&self) -> Option<(f64, Vec<Method>)> {
         let methods = self.method.map_or(Method::ALL.to_vec(), |method| vec![method]);
         self.accuracy.map(|error| (error, methods))
+    }
+
+    /// The method that is named.
+    pub(super) fn method(&self) -> Option<Method> {
+        self.method
     }
 
     /// The scene's settings, but for what the command line says.

@@ -21,6 +21,7 @@
 mod accuracy;
 mod arguments;
 mod cast;
+mod certified;
 mod check;
 mod completions;
 mod defaults;

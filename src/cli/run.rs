@@ -6,12 +6,14 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::accuracy;
 use super::arguments::Run;
+use super::certified::{self, Certified};
 use super::failure::{Failure, note};
 use super::judge::Jury;
 use super::output::Output;
 use super::rows::refuse_too_many;
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
+use crate::certify::Certificate;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 use crate::scene;
@@ -26,11 +28,13 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     let until = arguments.until.unwrap_or(opened.scene.duration);
     refuse_too_many(arguments, &opened.scene, until)?;
     opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
+    let certified = arguments.certify.then(|| Certified::of(&arguments.solver)).transpose()?;
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, until, Some(signals))?;
     said.iter().for_each(|said| note(said));
     for warning in scene::warnings(&opened.scene, settings, until) {
         note(&format!("{}: {warning}", opened.key));
     }
+    let settings = certified.as_ref().map_or(settings, |certified| certified.settings(settings));
     let simulation = Simulation::new(&opened.scene, settings);
     let mut recorder = Recorder {
         jury: Jury::new(&simulation, until, arguments.check),
@@ -44,8 +48,9 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     };
     recorder.simulation.record_events(true);
     let stall = recorder.record(arguments.every)?;
+    let certificate = certified.map(|certified| certified.certificate(&opened.scene, until, signals)).transpose()?;
     let on_stdout = !outputs.iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
-    recorder.close(stall, on_stdout)
+    recorder.close(stall, certificate, on_stdout)
 }
 
 fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failure> {
@@ -129,12 +134,13 @@ impl Recorder<'_> {
     }
 
     /// Puts the files in their places and says how the run ended.
-    fn close(mut self, stall: Option<Stall>, on_stdout: bool) -> Result<(), Failure> {
+    fn close(mut self, stall: Option<Stall>, certificate: Option<Certificate>, on_stdout: bool) -> Result<(), Failure> {
         self.progress.finish_and_clear();
         let end = if stall.is_some() { self.simulation.state() } else { self.simulation.at(self.until) };
         self.jury.close(&self.simulation, &end);
         let mut line = closing_line(&end, self.impacts, end.energy(self.simulation.model()), stall.as_ref());
         line.push_str(&self.jury.words());
+        line.push_str(&certificate.as_ref().map(certified::words).unwrap_or_default());
         for table in [self.states, self.events].into_iter().flatten() {
             table.finish()?.finish()?;
         }
@@ -147,6 +153,7 @@ impl Recorder<'_> {
         }
         unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         self.jury.sentences().iter().for_each(|sentence| note(sentence));
+        certificate.iter().flat_map(|certificate| &certificate.ending).for_each(|ending| note(&ending.to_string()));
         if let Some(stall) = &stall {
             note(&stall.reason);
         }

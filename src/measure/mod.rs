@@ -2,7 +2,7 @@
 //!
 //! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*, the time until a
 //! displacement of 1e-12 m has grown by 1e6: beyond it positions mean nothing. The cost is the processor time of one
-//! thread per simulated second, and the work counted.
+//! thread per simulated second, and the work counted. How far `exact` itself is off, [`certify`](crate::certify) tells.
 //!
 //! For others to build on:
 //! - [`Deviation::between`] two lists of positions: the largest distance and the sphere it is of. What a live panel shows.

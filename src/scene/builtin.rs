@@ -36,6 +36,7 @@ pub const ALL: &[Builtin] = embedded![
     "bouncing-49",
     "elastic-666",
     "inelastic-666",
+    "photon",
 ];
 
 /// The built-in scene of that name.

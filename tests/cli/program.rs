@@ -86,6 +86,8 @@ pub(crate) struct Closing {
     pub(crate) energy: f64,
     pub(crate) hash: u64,
     pub(crate) stall: Option<String>,
+    pub(crate) certified_until: Option<f64>,
+    pub(crate) error: Option<f64>,
 }
 
 /// Reads the last line, which must be a closing line and nothing else.
@@ -104,6 +106,8 @@ pub(crate) fn closing(text: &str) -> Closing {
                 assert_eq!(value.len(), 16, "{line}");
                 closing.hash = u64::from_str_radix(value, 16).expect("hexadecimal digits");
             }
+            "certified_until" => closing.certified_until = Some(number(Some(value))),
+            "error" => closing.error = Some(number(Some(value))),
             "stall" => closing.stall = Some(value.into()),
             _ => panic!("{key} is not part of a closing line: {line}"),
         }

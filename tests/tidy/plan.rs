@@ -8,6 +8,7 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
         &[
             "app",
             "audit",
+            "certify",
             "config",
             "explain",
             "export",
@@ -32,7 +33,8 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
     ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
     ("view", &["explain", "format", "snapshot"]),
     ("frame", &["printable"]),
-    ("measure", &["export", "format", "geometry", "physics", "printable", "random", "scene"]),
+    ("measure", &["certify", "export", "format", "geometry", "physics", "printable", "random", "scene"]),
+    ("certify", &["physics", "scene"]),
     ("text_mode", &["audit", "format", "physics", "scene"]),
     ("export", &["physics", "printable"]),
     ("audit", &["physics"]),
@@ -71,7 +73,8 @@ pub(crate) const HOMES: &[(&str, &[&str])] = &[
 pub(crate) const OUTER_WORLD: &[&str] = &["time", "thread", "fs", "io", "net", "process", "env", "os", "random"];
 
 /// Modules that see nothing but their arguments.
-pub(crate) const BLIND: &[&str] = &["physics", "geometry", "roots", "random", "format", "audit", "snapshot", "view"];
+pub(crate) const BLIND: &[&str] =
+    &["physics", "geometry", "roots", "random", "format", "audit", "certify", "snapshot", "view"];
 
 /// What the judge may know of the physics: what a run tells, never how it was found.
 pub(crate) const TOLD: &[&str] = &[

@@ -21,6 +21,7 @@ mod gas;
 mod golden;
 mod joints;
 mod mixture;
+mod photon;
 mod pressure;
 mod rest;
 mod reversal;
@@ -51,6 +52,7 @@ pub const CHECKS: &[Check] = &[
     steps::TOLERANCE,
     steps::TUNNELLING,
     reversal::CHECK,
+    photon::CHECK,
     rest::CHECK,
     joints::RIDGE,
     joints::TILES,
@@ -112,8 +114,15 @@ mod tests {
     #[test]
     fn whatever_pairs_decide_fails_if_they_lose_a_hundredth_more() {
         // In neither scene of the time reversal do spheres meet before it turns.
-        let expected =
-            ["Galperin's billiard", "squeeze", "Newton's cradle", "hard spheres", "Haff's law", "golden hashes"];
+        let expected = [
+            "Galperin's billiard",
+            "squeeze",
+            "Newton's cradle",
+            "hard spheres",
+            "Haff's law",
+            "photon",
+            "golden hashes",
+        ];
         assert_eq!(failing(0.99, 1.0, &["equipartition"]), expected);
     }
 

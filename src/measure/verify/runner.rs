@@ -100,6 +100,11 @@ impl<'a> Runner<'a> {
         Runner { depth, go_on }
     }
 
+    /// What says whether to go on.
+    pub(super) fn go_on(&self) -> GoOn<'a> {
+        self.go_on
+    }
+
     /// The one or the other, by depth.
     pub(super) fn pick<T>(&self, quick: T, whole: T) -> T {
         match self.depth {

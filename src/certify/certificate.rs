@@ -1,0 +1,152 @@
+//! A run of `exact` and its shadow, side by side.
+
+use super::double::Double;
+use super::ending::{Cause, Ending};
+use super::shadow::Shadow;
+use crate::physics::{Contact, Progress, Simulation, Until};
+use crate::scene::{Method, Scene, Settings};
+
+/// What is certified of a run by `exact`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certificate {
+    /// Until when, s: up to here the shadow run met the same contacts in an order that bodies cannot tell from the same, of
+    /// the same class, and no other.
+    pub until: f64,
+    /// The largest distance of a sphere from its place in the shadow run up to then, m.
+    pub error: f64,
+    /// Why it ends before the run does; none if it does not.
+    pub ending: Option<Ending>,
+    /// Impacts, rests and releases that the shadow run has followed.
+    pub events: u64,
+    /// Pairs of bodies that were looked at to show that no other contact comes.
+    pub looks: u64,
+    places: Vec<[Double; 3]>,
+}
+
+impl Certificate {
+    /// Where the shadow run has sphere `i` at `until`, m.
+    pub fn place(&self, i: usize) -> Option<[Double; 3]> {
+        self.places.get(i).copied()
+    }
+}
+
+/// Runs a scene by `exact` up to `until` (s) and certifies what it can; nothing if `go_on`, asked every few milliseconds,
+/// says no.
+pub fn certify(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<Certificate> {
+    let (found, at_its_end) = pursue(scene, until, go_on)?;
+    if at_its_end {
+        return Some(found);
+    }
+    // what ends it was seen only after later events: once more, up to there
+    let (again, _) = pursue(scene, found.until, go_on)?;
+    let ending = found.ending.map(|ending| Ending { time: again.until, ..ending });
+    Some(Certificate { ending, ..again })
+}
+
+/// The certificate of a run, and whether the shadow stopped where it ends.
+fn pursue(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<(Certificate, bool)> {
+    let settings = Settings { method: Method::Exact, dt: until.max(f64::MIN_POSITIVE), tolerance: 0.0 };
+    let mut run = Simulation::new(scene, settings);
+    run.record_events(true);
+    let mut pursuit = Pursuit { shadow: Shadow::new(scene), until, events: 0 };
+    if pursuit.shadow.is_too_large() {
+        return Some((pursuit.nothing(), true));
+    }
+    let mut followed = pursuit.frame(&mut run);
+    while followed.is_ok() && run.time() < until {
+        if !go_on() {
+            return None;
+        }
+        followed = match run.advance(Until::Frame, Simulation::SLICE) {
+            Progress::Yielded => Ok(()),
+            Progress::Reached => pursuit.frame(&mut run),
+            Progress::Stalled(stall) => Err(Ending { time: stall.time, bodies: None, cause: Cause::Stalled }),
+        };
+    }
+    Some(pursuit.close(followed.err()))
+}
+
+/// The shadow on its way.
+struct Pursuit {
+    shadow: Shadow,
+    until: f64,
+    events: u64,
+}
+
+impl Pursuit {
+    /// What `exact` tells of a frame that is complete.
+    fn frame(&mut self, run: &mut Simulation) -> Result<(), Ending> {
+        let mut rows = run.take_events();
+        rows.retain(|row| row.time <= self.until);
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let mut instant = f64::NEG_INFINITY;
+        for row in &rows {
+            if row.time != instant {
+                self.shadow.settle()?;
+            }
+            instant = row.time;
+            self.follow(row)?;
+        }
+        self.shadow.settle()?;
+        let state = if run.time() <= self.until { run.state() } else { run.at(self.until) };
+        self.shadow.compare(&state)
+    }
+
+    /// The certificate of a scene with too many bodies: of its start alone.
+    fn nothing(self) -> Certificate {
+        let ending = Some(Ending { time: 0.0, bodies: None, cause: Cause::Spent });
+        let places = self.shadow.bodies.iter().map(|body| body.now.x.components()).collect();
+        Certificate { until: 0.0, error: 0.0, ending, events: 0, looks: 0, places }
+    }
+
+    fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
+        self.shadow.follow(row)?;
+        self.events += 1;
+        Ok(())
+    }
+
+    /// The certificate, up to where nothing speaks against it, and whether no sphere has had two events since then.
+    fn close(self, ending: Option<Ending>) -> (Certificate, bool) {
+        let Pursuit { shadow, until, events } = self;
+        let last = ending.as_ref().map_or(until, |ending| ending.time.min(until));
+        let doubt = shadow.first_doubt(last.into());
+        let until = doubt.as_ref().map_or(last, |doubt| doubt.time.min(last));
+        // as bodies come together for the contact that ends it, nothing shows that they do not touch
+        let known = |doubt: &Ending| ending.as_ref().is_some_and(|ending| ending.bodies == doubt.bodies);
+        let ending = doubt.filter(|doubt| !known(doubt)).or(ending);
+        let t = Double::from(until);
+        let error = shadow.bodies.iter().map(|body| body.error(t)).fold(shadow.error, f64::max);
+        let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
+        let ending = ending.map(|ending| Ending { time: until, ..ending });
+        let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t);
+        (Certificate { until, error, ending, events, looks: shadow.looks, places }, at_its_end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::law_fault::with_restitution_times;
+    use crate::scene;
+
+    #[test]
+    fn an_exact_that_breaks_the_impact_law_is_found_out() {
+        // Until when, s; and what the restitution of pairs and of walls is multiplied by.
+        let broken = [
+            ("paper-0", 4.0, [1.0, 0.999_999]),
+            ("paper-3", 4.0, [1.0, 0.999_999]),
+            ("billiard", 0.9, [0.999_999, 1.0]),
+        ];
+        for (name, until, [pairs, walls]) in broken {
+            let scene = scene::open(name).expect("a built-in scene").scene;
+            let run = || certify(&scene, until, &|| true).expect("it is not interrupted");
+            let right = run();
+            assert!(right.ending.is_none() && right.error < 1e-12, "{name}: {right:?}");
+            // A part in a million of a bounce of some m/s, over a second: micrometres, which rounding does not make here.
+            let wrong = with_restitution_times(pairs, walls, run);
+            assert!(wrong.ending.is_some() || wrong.error > 1e-7, "{name}: {wrong:?}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Why a certificate ends before the run does.
+
+use std::fmt;
+
+use crate::physics::Kind;
+
+/// Where a certificate ends, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ending {
+    /// When, s.
+    pub time: f64,
+    /// Sphere, and wall or second sphere; none if it is about no contact.
+    pub bodies: Option<(Kind, usize, usize)>,
+    /// Why.
+    pub cause: Cause,
+}
+
+/// Why a certificate ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// `exact` tells a contact there, and the shadow finds none by itself.
+    NoContact,
+    /// The shadow's approach speed makes another class of the contact: it is at the border of two, or rests for a reason
+    /// that is no law of the paper.
+    OtherClass,
+    /// `exact` lets a contact go that the shadow finds pressed.
+    Pressed,
+    /// Contacts of one sphere at one time: their order is no fact.
+    Simultaneous,
+    /// The contacts of one sphere come in another order.
+    OtherOrder,
+    /// Rest on a sphere, an edge or a corner: it has no closed form in general.
+    CurvedRest,
+    /// A sphere that slides on a wall comes to its edge.
+    RollsOver,
+    /// More faces than three hold one sphere, or their forces have no solution.
+    Support,
+    /// Nothing shows that these bodies do not touch.
+    Touching,
+    /// `exact` and the shadow are apart by more than a radius.
+    Parted,
+    /// `exact` went no further.
+    Stalled,
+    /// The work that a certificate may take is spent.
+    Spent,
+}
+
+impl Cause {
+    /// The cause as the end of "certified until … because …".
+    pub fn words(self) -> &'static str {
+        match self {
+            Cause::NoContact => "the shadow run finds no such contact there",
+            Cause::OtherClass => "at the shadow run's approach speed the contact is of another class",
+            Cause::Pressed => "it lets go there, and the shadow run finds it pressed",
+            Cause::Simultaneous => "it comes at the same time as another contact of the same sphere",
+            Cause::OtherOrder => "in the shadow run contacts come in another order",
+            Cause::CurvedRest => "rest on a sphere, an edge or a corner is not certified",
+            Cause::RollsOver => "the sphere slides over the wall's edge",
+            Cause::Support => "too many faces hold the sphere",
+            Cause::Touching => "they come so close that nothing shows whether they touch",
+            Cause::Parted => "the run and its shadow are apart by more than a radius",
+            Cause::Stalled => "the run went no further",
+            Cause::Spent => "the certificate's work is spent",
+        }
+    }
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "certified until {:?} s, no longer because ", self.time)?;
+        match self.bodies {
+            Some((Kind::Wall, sphere, wall)) => write!(f, "of sphere {sphere} and wall {wall}: ")?,
+            Some((Kind::Pair, a, b)) => write!(f, "of spheres {a} and {b}: ")?,
+            None => {}
+        }
+        f.write_str(self.cause.words())
+    }
+}

@@ -1,0 +1,47 @@
+//! A run that certifies another: how far `exact` is from what its scene says, and until when that is known.
+//!
+//! [`certify`] runs a scene by `exact` and a *shadow* beside it in arithmetic of 32 digits ([`Double`]). The shadow is told
+//! which bodies meet next, and nothing else: it finds the time by Newton's iteration, acts by the paper's law, slides on
+//! faces, and shows for all other bodies, by planes between them, that they do not touch. It shares no code with the
+//! solvers and reads the scene, not the model. Where it cannot follow, the certificate ends, and says why.
+//!
+//! ```
+//! use carom::certify::certify;
+//!
+//! let scene = carom::scene::open("paper-0")?.scene;
+//! let certificate = certify(&scene, 3.0, &|| true).expect("it was not interrupted");
+//! assert_eq!(certificate.ending, None);
+//! assert!(certificate.error < 1e-13, "{} m", certificate.error);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | file | owns |
+//! |---|---|
+//! | `double`, `vector` | the arithmetic |
+//! | `course` | how a sphere moves between events |
+//! | `obstacle` | walls and spheres as what is met: closest points, normals |
+//! | `touching`, `start` | when bodies touch; what touches as a motion begins |
+//! | `law`, `support` | what an impact does; what faces take |
+//! | `clear`, `gaps` | that nothing else touches; by one obstacle, by all |
+//! | `body`, `shadow` | a sphere, and all of them, from event to event |
+//! | `ending` | why a certificate ends |
+//! | `certificate` | `exact` and the shadow side by side; begin here |
+
+mod body;
+mod certificate;
+mod clear;
+mod course;
+mod double;
+mod ending;
+mod gaps;
+mod law;
+mod obstacle;
+mod shadow;
+mod start;
+mod support;
+mod touching;
+mod vector;
+
+pub use certificate::{Certificate, certify};
+pub use double::Double;
+pub use ending::{Cause, Ending};

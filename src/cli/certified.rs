@@ -1,0 +1,47 @@
+//! `--certify`: a run by `exact` that states its own error.
+
+use super::arguments::Solver;
+use super::failure::Failure;
+use super::signals::Signals;
+use crate::certify::{Certificate, certify};
+use crate::scene::{Method, Scene, Settings};
+
+/// That a run shall be certified, and can be.
+pub(super) struct Certified;
+
+impl Certified {
+    /// What the command line asks for.
+    ///
+    /// # Errors
+    /// If it names a method other than `exact`.
+    pub(super) fn of(solver: &Solver) -> Result<Certified, Failure> {
+        match solver.method() {
+            None | Some(Method::Exact) => Ok(Certified),
+            Some(other) => Err(Failure::Usage(format!(
+                "--certify states the error of exact, not of {}; leave out --method, or measure the error with `carom measure`",
+                other.name()
+            ))),
+        }
+    }
+
+    /// These settings by `exact`.
+    pub(super) fn settings(&self, settings: Settings) -> Settings {
+        Settings { method: Method::Exact, ..settings }
+    }
+
+    /// The certificate of a scene up to `until`, s.
+    ///
+    /// # Errors
+    /// If a signal arrives.
+    pub(super) fn certificate(&self, scene: &Scene, until: f64, signals: &Signals) -> Result<Certificate, Failure> {
+        match certify(scene, until, &|| signals.check().is_ok()) {
+            Some(certificate) => Ok(certificate),
+            None => Err(signals.check().err().unwrap_or(Failure::Told)),
+        }
+    }
+}
+
+/// What the closing line says of a certificate.
+pub(super) fn words(certificate: &Certificate) -> String {
+    format!(" certified_until={:?} error={:?}", certificate.until, certificate.error)
+}

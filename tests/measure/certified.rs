@@ -1,0 +1,205 @@
+//! Does the shadow run know the truth, does what `exact` says of its error hold, and does the certificate end where it must?
+
+use carom::certify::{Cause, Certificate, Double, certify};
+use carom::physics::{Method, Simulation};
+use carom::scene::{self, ContactLaw, Scene, Settings, Sphere};
+use glam::{DVec3, dvec3};
+
+use crate::arithmetic::{Big, big, decimal, off, whole};
+use crate::random::Random;
+use crate::support::{ELASTIC, G, PAPER_LAW, go, room, scene, sphere, wall};
+
+fn certified(scene: &Scene, until: f64) -> Certificate {
+    certify(scene, until, &|| true).expect("it is not interrupted")
+}
+
+/// Component `axis` of where the shadow has sphere `i`, m.
+fn place(certificate: &Certificate, i: usize, axis: usize) -> Double {
+    certificate.place(i).expect("there is such a sphere")[axis]
+}
+
+/// A floor of 40 m × 40 m at y = 0.
+fn floor() -> scene::Wall {
+    wall(DVec3::ZERO, DVec3::X * 40.0, DVec3::NEG_Z * 40.0)
+}
+
+/// Nothing rests.
+fn bouncy(e: f64, tangential: f64) -> ContactLaw {
+    ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.0 }
+}
+
+fn exact() -> Settings {
+    Settings { method: Method::Exact, dt: 0.1, tolerance: 0.0 }
+}
+
+#[test]
+fn a_fall_is_the_parabola_to_the_last_digit() {
+    let ball = sphere(dvec3(0.0, 100.0, 0.0), dvec3(0.3, 0.1, 0.7), 0.5);
+    let certificate = certified(&scene(G, ELASTIC, vec![], vec![ball]), 1.7);
+    let t = big(1.7);
+    let y = big(100.0) + big(0.1) * &t - big(9.8) * &t * &t / big(2.0);
+    assert!(off(place(&certificate, 0, 1), &y) < 1e-29, "{certificate:?}");
+    assert!(off(place(&certificate, 0, 0), &(big(0.3) * &t)) < 1e-30);
+}
+
+#[test]
+fn a_ball_that_loses_at_each_bounce_is_where_the_geometric_series_has_it() {
+    // From 4 m at 8 m/s² it lands after 1 s at 8 m/s, and again after 1, 1/2 and 1/4 s: at 2.75 s at 1 m/s.
+    let ball = sphere(dvec3(0.0, 4.5, 0.0), DVec3::X, 0.5);
+    let falling = scene(DVec3::NEG_Y * 8.0, bouncy(0.5, 0.5), vec![floor()], vec![ball]);
+    let certificate = certified(&falling, 2.625);
+    let x = big(1.0 + 0.5 + 0.5 * 0.25 + 0.125 * 0.125);
+    assert!(off(place(&certificate, 0, 0), &x) < 1e-29, "{certificate:?}");
+    assert!(off(place(&certificate, 0, 1), &big(0.5 + 0.0625)) < 1e-29, "{certificate:?}");
+    assert_eq!((certificate.events, certificate.ending), (3, None));
+}
+
+#[test]
+fn bounces_at_times_that_are_no_fractions_come_to_thirty_digits() {
+    let (e, height, until) = (0.7, 1.3, 2.1);
+    let ball = sphere(dvec3(0.0, 0.5 + height, 0.0), DVec3::ZERO, 0.5);
+    let certificate = certified(&scene(G, bouncy(e, 1.0), vec![floor()], vec![ball]), until);
+    let g = big(9.8);
+    let fall = (big(2.0) * (big(0.5 + height) - big(0.5)) / &g).sqrt();
+    let (mut since, mut speed, mut bounces) = (fall.clone(), &g * &fall * big(e), 1);
+    while &since + big(2.0) * &speed / &g < big(until) {
+        since += big(2.0) * &speed / &g;
+        speed *= big(e);
+        bounces += 1;
+    }
+    let left: Big = big(until) - since;
+    let y = big(0.5) + &speed * &left - g * &left * &left / big(2.0);
+    assert!(off(place(&certificate, 0, 1), &y) < 1e-28, "{certificate:?}");
+    assert_eq!((certificate.events, certificate.ending), (bounces, None));
+}
+
+#[test]
+fn two_spheres_part_as_momentum_and_restitution_have_it() {
+    // 1 kg at 2 m/s into 3 kg at rest, e = 1/2: −1/4 and 3/4 m/s. They meet after 1 s.
+    let balls = vec![
+        sphere(DVec3::ZERO, DVec3::X * 2.0, 0.5),
+        Sphere { mass: 3.0, ..sphere(DVec3::X * 3.0, DVec3::ZERO, 0.5) },
+    ];
+    let certificate = certified(&scene(DVec3::ZERO, bouncy(0.5, 1.0), vec![], balls), 5.0);
+    assert!(off(place(&certificate, 0, 0), &big(2.0 - 0.25 * 4.0)) < 1e-29, "{certificate:?}");
+    assert!(off(place(&certificate, 1, 0), &big(3.0 + 0.75 * 4.0)) < 1e-29, "{certificate:?}");
+}
+
+#[test]
+fn a_ball_slides_on_a_slope_as_its_weight_along_it_has_it() {
+    // Down a slope of 3 : 4 at g · 3/5, from rest: 9.8 · 0.6 · 1.1²/2 m along (−4/5, −3/5).
+    let slope = wall(DVec3::ZERO, dvec3(40.0, 30.0, 0.0), DVec3::Z * 40.0);
+    let ball = sphere(dvec3(-3.0, 4.0, 0.0), DVec3::ZERO, 5.0);
+    let certificate = certified(&scene(G, PAPER_LAW, vec![slope], vec![ball]), 1.1);
+    let along = big(9.8) * big(3.0) / big(5.0) * big(1.1) * big(1.1) / big(2.0);
+    let x = big(-3.0) - &along * big(4.0) / big(5.0);
+    assert!(off(place(&certificate, 0, 0), &x) < 1e-29, "{certificate:?}");
+    assert_eq!((certificate.events, certificate.ending), (1, None));
+}
+
+#[test]
+fn the_photon_of_the_hundred_digit_challenge_is_known_to_eighteen_digits_and_exact_knows_what_it_lost() {
+    let photon = scene::open("photon").expect("a built-in scene").scene;
+    let certificate = certified(&photon, 10.0);
+    assert_eq!((certificate.events, certificate.until), (14, 10.0));
+    let [x, y] = [0, 1].map(|axis| whole(place(&certificate, 0, axis)));
+    let squared = (&x * &x + &y * &y) / big(900.0);
+    let known = decimal(&[995_262_919.0, 4_433_541_608.0, 9_031_180_942.0]);
+    let share = f64::try_from((squared / (&known * &known) - big(1.0)).with_precision(53).value()).expect("a number");
+    // The mirrors weigh 1e30 times the photon, and fourteen impacts enlarge what is off by some 1e10.
+    assert!(share.abs() < 2e-18, "{share:e}");
+    let found = go(&mut Simulation::new(&photon, exact()), 10.0).x[0].length();
+    let lost = (found - 30.0 * 0.995_262_919_443_354_2).abs();
+    assert!(lost > 1e-7 && lost <= certificate.error, "{lost:e} of {:e}", certificate.error);
+}
+
+/// A room with a slope or none, and a few spheres under the paper's law.
+fn any_scene(random: &mut Random) -> Scene {
+    let mut walls = room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 10.0, 5.0));
+    if random.unit() < 0.5 {
+        let edges = [dvec3(random.between(2.0, 6.0), random.between(-2.0, 2.0), 0.0), DVec3::NEG_Z * 4.0];
+        walls.push(wall(dvec3(0.0, 4.0, 0.0), edges[0], edges[1]));
+    }
+    let spot = |k: usize| dvec3(-3.0 + 2.0 * (k % 3) as f64, 7.5, -3.0 + 2.0 * (k / 3) as f64);
+    let count = random.pick(&[1, 2, 4, 7]);
+    let spheres = (0..count).map(|k| Sphere {
+        mass: random.decade(-1.0, 1.0),
+        ..sphere(spot(k) + random.vector() * 0.3, random.vector() * 8.0, random.between(0.2, 0.6))
+    });
+    let spheres: Vec<Sphere> = spheres.collect();
+    let law = ContactLaw {
+        restitution: random.between(0.3, 1.0),
+        wall_restitution: random.between(0.3, 1.0),
+        tangential: random.between(0.8, 1.0),
+        rest_speed: 0.1,
+    };
+    scene(G, law, walls, spheres)
+}
+
+#[test]
+fn what_exact_says_of_its_error_holds_in_each_of_a_thousand_scenes() {
+    let random = &mut Random(7);
+    let (mut whole_runs, mut events) = (0, 0);
+    for k in 0..1000 {
+        let scene = any_scene(random);
+        let certificate = certified(&scene, 3.0);
+        events += certificate.events;
+        whole_runs += usize::from(certificate.ending.is_none());
+        let state = go(&mut Simulation::new(&scene, exact()), certificate.until);
+        for (i, x) in state.x.iter().enumerate() {
+            let off =
+                DVec3::from_array([0, 1, 2].map(|axis| (Double::from(x[axis]) - place(&certificate, i, axis)).value()));
+            // Reading a state rounds it: coordinates of ten metres, three ulp each.
+            assert!(off.length() <= certificate.error + 1e-14, "{k}, sphere {i}: {off}, {certificate:?}");
+        }
+        // Few impacts with round bodies each enlarge rounding by at most some hundred times.
+        assert!(certificate.error < 1e-6, "{k}: {certificate:?}");
+    }
+    assert!(events > 10_000, "{events} events");
+    assert!(whole_runs > 900, "{whole_runs} of 1000 are certified to their end");
+}
+
+#[test]
+fn where_it_cannot_follow_it_ends_and_says_why() {
+    let of = |walls, spheres, until| {
+        let certificate = certified(&scene(G, PAPER_LAW, walls, spheres), until);
+        let ending = certificate.ending.expect("it ends before the run");
+        (ending.cause, certificate.until)
+    };
+    // One sphere falls onto the top of another that lies on the floor, without bouncing enough to leave it for long.
+    let tower = vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5), sphere(DVec3::Y * 1.5, DVec3::ZERO, 0.5)];
+    assert_eq!(of(vec![floor()], tower, 1.0), (Cause::CurvedRest, 0.0));
+    // At 1 m/s to the border at 20 m, ½ m above the floor on which it rests.
+    let rolling = vec![sphere(dvec3(18.0, 0.5, 0.0), DVec3::X, 0.5)];
+    let (cause, until) = of(vec![floor()], rolling, 5.0);
+    assert!(cause == Cause::RollsOver && (until - 2.0).abs() < 1e-12, "{cause:?} at {until}");
+    // Into the corner of a room, both walls at once.
+    let walls = room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 10.0, 5.0));
+    let (cause, until) = of(walls, vec![sphere(dvec3(0.0, 8.0, 0.0), dvec3(9.0, 0.0, 9.0), 0.5)], 5.0);
+    assert!(cause == Cause::Touching && (until - 0.5).abs() < 1e-9, "{cause:?} at {until}");
+}
+
+#[test]
+fn four_of_the_paper_s_scenes_are_certified_to_their_end_with_the_digits_that_their_growth_leaves() {
+    // A displacement grows by 1, 1e3, 2 and 2e8 in scenes 0 to 3, and coordinates of 10 m round to 1e-15.
+    for (name, most) in [("paper-0", 1e-13), ("paper-1", 1e-10), ("paper-2", 1e-12), ("paper-3", 1e-6)] {
+        let scene = scene::open(name).expect("a built-in scene").scene;
+        let certificate = certified(&scene, 20.0);
+        assert_eq!((certificate.until, &certificate.ending), (20.0, &None), "{name}");
+        assert!(certificate.error > 0.0 && certificate.error < most, "{name}: {}", certificate.error);
+    }
+}
+
+#[test]
+fn a_crowd_that_is_too_large_to_be_looked_at_pair_by_pair_is_certified_at_its_start_only() {
+    let balls = (0..10_001).map(|k| sphere(DVec3::X * f64::from(k), DVec3::Y, 0.25)).collect();
+    let certificate = certified(&scene(G, ELASTIC, vec![], balls), 1.0);
+    assert_eq!((certificate.until, certificate.looks), (0.0, 0));
+    assert_eq!(certificate.ending.map(|ending| ending.cause), Some(Cause::Spent));
+}
+
+#[test]
+fn a_certificate_that_is_told_not_to_go_on_is_none() {
+    let scene = scene::open("paper-3").expect("a built-in scene").scene;
+    assert_eq!(certify(&scene, 20.0, &|| false), None);
+}
