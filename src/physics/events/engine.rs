@@ -12,6 +12,7 @@ use super::mechanics::Mechanics;
 use super::rest_reason::RestReason;
 use super::schedule::entry::{EventKind, event_kind};
 use super::schedule::parts::Schedule;
+use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::log::Log;
 use crate::physics::method::{Progress, Until};
@@ -287,9 +288,8 @@ impl<D: Detector> EventDriven<D> {
             schedule.predict_due(model, trajectories, rests, slot);
             return Ok(());
         }
-        if log.explaining && log.approaches.len() < MOST_APPROACHES {
-            let key = mechanics.trajectories.key(slot, &plan);
-            log.approaches.push(mechanics.trajectories.approach(model, key));
+        if log.explaining {
+            keep_approach(&mechanics.trajectories, model, log, mechanics.trajectories.key(slot, &plan));
         }
         if mechanics.collide_plain_pair(model, log, slot, &plan)? {
             let Mechanics { trajectories, rests, .. } = mechanics;
@@ -314,5 +314,14 @@ impl<D: Detector> EventDriven<D> {
         for &i in changed.spheres() {
             self.schedule.predict(model, trajectories, rests, trajectories.slot(i));
         }
+    }
+}
+
+/// Keeps how the bodies of a contact came together. Out of the way of runs that do not ask: the loop is short.
+#[cold]
+#[inline(never)]
+fn keep_approach(trajectories: &Trajectories, model: &Model, log: &mut Log, key: Key) {
+    if log.approaches.len() < MOST_APPROACHES {
+        log.approaches.push(trajectories.approach(model, key));
     }
 }

@@ -167,7 +167,9 @@ impl<D: Detector> Search<'_, D> {
         1
     }
 
-    /// Whether the sphere and the one at `other` rest on each other.
+    /// Whether the sphere and the one at `other` rest on each other. Out of the way of a gas, in which nothing rests.
+    #[cold]
+    #[inline(never)]
     fn rest_on_each_other(&self, other: usize) -> bool {
         let (i, j) = (self.trajectories.sphere(self.slot), self.trajectories.sphere(other));
         self.rests.holds((Kind::Pair, i.min(j), i.max(j)))
