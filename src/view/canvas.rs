@@ -131,9 +131,19 @@ impl Canvas {
         if y < 0 || y >= self.height {
             return;
         }
-        for x in from.max(0)..to.min(self.width) {
-            let (x, y) = (x as usize, y as usize);
-            self.cells[y / 4 * self.columns + x / 2].bodies &= !glyphs::bit(x % 2, y % 4);
+        let (from, to) = (from.max(0), to.min(self.width));
+        if from >= to {
+            return;
+        }
+        let (from, to, y) = (from as usize, to as usize, y as usize);
+        let row = y / 4 * self.columns;
+        let (left, right) = (glyphs::bit(0, y % 4), glyphs::bit(1, y % 4));
+        // Cell by cell, the first and the last perhaps by half.
+        let (first, last) = (from / 2, (to - 1) / 2);
+        for (column, cell) in self.cells[row + first..=row + last].iter_mut().enumerate() {
+            let keeps_left = column == 0 && from % 2 == 1;
+            let keeps_right = first + column == last && to % 2 == 1;
+            cell.bodies &= !(if keeps_left { 0 } else { left } | if keeps_right { 0 } else { right });
         }
     }
 
