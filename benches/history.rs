@@ -119,7 +119,7 @@ fn processor() -> f64 {
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
-/// A worker, and who tells of its news.
+/// A worker, and the channel of its news.
 struct User {
     worker: Worker,
     news: Receiver<()>,

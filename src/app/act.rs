@@ -208,8 +208,7 @@ impl State {
             .filter(|_| self.cost_told == 0 && self.comparison.is_none());
         if let Some(cost) = cost {
             self.cost_told = 2;
-            let key = self.keymap.keys(Action::Ghost).first().map_or_else(|| "its key".into(), Key::to_string);
-            return self.say(format!("{cost}; {key} again starts it."));
+            return self.say(format!("{cost}; {} again starts it.", self.key_of(Action::Ghost)));
         }
         match self.comparison.take() {
             Some(comparison) => {
@@ -313,9 +312,12 @@ impl State {
         if trials == 0 {
             let searched = !self.report.snapshot.probes.is_empty();
             return self.say(if searched {
-                "This frame's trial steps are not kept: they have too many spheres, or one came back to it."
+                "This frame's trial steps are not kept: they have too many spheres, or one came back to it.".into()
             } else {
-                "This frame has searched for no collision time: c goes to a collision."
+                format!(
+                    "This frame has searched for no collision time: {} goes to a collision.",
+                    self.key_of(Action::NextImpact)
+                )
             });
         }
         let card = self.view_settings.card.get_or_insert_default();
@@ -351,11 +353,18 @@ impl State {
         self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
+    /// The first key of an action, as a text names it.
+    fn key_of(&self, action: Action) -> String {
+        self.keymap.keys(action).first().map_or_else(|| format!("the key of {}", action.name()), Key::to_string)
+    }
+
     /// Goes on until what was waited for last comes again.
     fn until_again(&mut self) {
         match self.until {
             Some(stop) => self.advance(Command::Until(stop)),
-            None => self.say("Nothing was waited for yet; u asks until what to run."),
+            None => {
+                self.say(format!("Nothing was waited for yet; {} asks until what to run.", self.key_of(Action::Until)))
+            }
         }
     }
 

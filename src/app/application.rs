@@ -163,9 +163,8 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
         Open::Scenes(list) => list.shown().map(|entry| (entry.name.as_str(), entry.about.as_str())).collect(),
         _ => Vec::new(),
     };
-    let scenes = state.scene_names();
     let offers = match &state.open {
-        Open::Prompt(line) => line.offers(&state.context(&scenes)).join("  "),
+        Open::Prompt(line) => line.offers(&state.context(&state.scene_names())).join("  "),
         _ => String::new(),
     };
     show(&Screen {

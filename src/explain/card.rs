@@ -87,15 +87,17 @@ impl Of<'_> {
 
     /// Which rule gave the class.
     fn why(&self) -> Vec<Line> {
-        let (v_n, limit) = (-self.contact.approach_speed, self.snapshot.stage.law.rest_speed);
-        let (speed, limit) = (measured(v_n), number(-limit));
+        let (v_n, slow) = (-self.contact.approach_speed, self.snapshot.stage.law.rest_speed);
+        let (speed, limit) = (measured(v_n), number(-slow));
         let reason = self.snapshot.rest_reasons.get(self.index).copied().flatten();
         let text = match (self.contact.class, reason) {
             (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s: it collides"),
             (Class::Rest, Some(reason)) => format!("it rests: {}", reason.words()),
-            (Class::Rest, None) => {
-                format!("v_n = {speed} m/s ≥ −rest_speed = {limit} m/s, and it is pressed: it rests")
+            (Class::Rest, None) if v_n.abs() <= slow => {
+                let (speed, slow) = (measured(v_n.abs()), number(slow));
+                format!("|v_n| = {speed} m/s ≤ rest_speed = {slow} m/s, and it is pressed or approaches: it rests")
             }
+            (Class::Rest, None) => "it rested for a moment that is over: why is kept no longer".into(),
             (Class::Leave, _) => format!("v_n = {speed} m/s: it leaves, nothing is done"),
             (Class::Release, _) => format!("v_n = {speed} m/s, and nothing presses it: its rest ends"),
         };
@@ -112,33 +114,60 @@ impl Of<'_> {
     }
 
     fn speeds(&self) -> Vec<Line> {
-        let Contact { approach_speed, separation_speed, .. } = *self.contact;
+        let Contact { class, approach_speed, separation_speed, .. } = *self.contact;
         let slip = self.slip();
         let change = |before: f64, after: f64| format!("{} → {} m/s", measured(before), measured(after));
-        let across = change(slip, slip * self.tangential());
+        let across = match class == Class::Collide && self.formula().is_none() {
+            true => format!("{} m/s before", measured(slip)),
+            false => change(slip, slip * self.tangential()),
+        };
         vec![Line::new("v_n", change(-approach_speed, separation_speed)), Line::new("v_t", across)]
     }
 
-    /// The impulse: of an impact the formula with its numbers, of a rest the force it stands for.
+    /// The impulse: of an impact the formula with its numbers, of a rest what stops it and the force that it stands for.
     fn impulse(&self) -> Vec<Line> {
-        let Contact { class, impulse, .. } = *self.contact;
-        let result = format!("{} N s", measured(impulse));
-        match class {
-            Class::Collide => vec![Line::new("J", format!("{} = {result}", self.formula()))],
-            Class::Rest if impulse > 0.0 && self.snapshot.step > 0.0 => {
-                let force = measured(impulse / self.snapshot.step);
-                vec![Line::new(
-                    "support",
-                    format!("{force} N, that is {result} in this frame of {} s", number(self.snapshot.step)),
-                )]
+        let result = format!("{} N s", measured(self.contact.impulse));
+        match self.contact.class {
+            Class::Collide => {
+                let formula =
+                    self.formula().unwrap_or_else(|| "solved for the whole frame, forces and contacts together".into());
+                vec![Line::new("J", format!("{formula} = {result}"))]
             }
-            Class::Rest => vec![Line::new("support", "none: it touches and carries nothing")],
+            Class::Rest => self.support(&result),
             Class::Leave | Class::Release => Vec::new(),
         }
     }
 
-    /// J as the law has it, with its numbers; where the method's J is another, what that is.
-    fn formula(&self) -> String {
+    /// What holds a contact at rest, or stops it there: `result` is its impulse.
+    fn support(&self, result: &str) -> Vec<Line> {
+        let Contact { approach_speed, impulse, .. } = *self.contact;
+        let Snapshot { step, slack, method, .. } = *self.snapshot;
+        // A frame's method has stopped it and held it in one; one that follows events does either.
+        let stop = if slack.is_some() { self.effective_mass() * approach_speed } else { 0.0 };
+        if slack.is_none() && approach_speed != 0.0 {
+            let does = if method == "moreau" { "stop it and hold it for the frame" } else { "stop it" };
+            return vec![Line::new("J", format!("{result}, which {does}"))];
+        }
+        let held = impulse - stop;
+        let mut lines = Vec::new();
+        if stop != 0.0 {
+            lines.push(Line::new("J", format!("{} N s, which stop it", measured(stop))));
+        }
+        lines.push(Line::new(
+            "support",
+            match held > ROUNDING * impulse.abs() && step > 0.0 {
+                true => {
+                    let (force, held) = (measured(held / step), measured(held));
+                    format!("{force} N, that is {held} N s in this frame of {} s", number(step))
+                }
+                false => "none: it touches and carries nothing".into(),
+            },
+        ));
+        lines
+    }
+
+    /// J as the law has it, with its numbers; none where the method's J is another, solved with other contacts.
+    fn formula(&self) -> Option<String> {
         let Contact { kind, a, b, approach_speed, separation_speed, impulse, .. } = *self.contact;
         let (e, mass) = (self.restitution(), self.effective_mass());
         let is = |one: f64, other: f64| (one - other).abs() <= ROUNDING * one.abs().max(other.abs());
@@ -148,18 +177,18 @@ impl Of<'_> {
         };
         let (before, after) = (measured(approach_speed), measured(separation_speed));
         if is(impulse, (1.0 + e) * mass * approach_speed) {
-            format!("(1 + {}) × {masses} × {before} m/s", number(e))
+            Some(format!("(1 + {}) × {masses} × {before} m/s", number(e)))
         } else if is(impulse, mass * (approach_speed + separation_speed)) {
-            format!("{masses} × ({before} + {after}) m/s")
+            Some(format!("{masses} × ({before} + {after}) m/s"))
         } else {
-            "solved together with the frame's other contacts".into()
+            None
         }
     }
 
-    /// What the contact takes from the kinetic energy.
+    /// What the contact takes from the kinetic energy, where no other has a part in it.
     fn energy(&self) -> Vec<Line> {
         let Contact { class, approach_speed, separation_speed, .. } = *self.contact;
-        if class != Class::Collide {
+        if class != Class::Collide || self.formula().is_none() {
             return Vec::new();
         }
         let (slip, left) = (self.slip(), self.tangential());

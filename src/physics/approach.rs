@@ -1,4 +1,4 @@
-//! How two bodies came together, as the root of a polynomial: what `exact` solves, kept for those who want to see it.
+//! How two bodies came together, as the root of a polynomial: what `exact` solves, kept to be shown.
 
 use super::contact::Key;
 use super::contact_time::distance_polynomial;

@@ -52,7 +52,6 @@ pub(super) fn draw(screen: &Screen, card: CardView, area: Rect, sheet: &mut Shee
     let Some(chosen) = chosen(screen, card) else {
         column.heading("contact", "none in this frame");
         let faint = column.sheet().palette.faint();
-        column.row("c runs to the next collision", faint);
         return column.row("Esc closes", faint);
     };
     let order = order(screen.snapshot, screen.view_settings.selected);

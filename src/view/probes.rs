@@ -67,8 +67,8 @@ pub(super) fn draw(search: &Search, column: &mut Column) {
         return;
     }
     let remark = match search.at {
-        Some(at) => format!("trial step {} of {}  ( ) move", at + 1, probes.len()),
-        None => format!("{} trial steps  ( ) move", probes.len()),
+        Some(at) => format!("trial step {} of {}", at + 1, probes.len()),
+        None => format!("{} trial steps", probes.len()),
     };
     column.heading("search", &remark);
     if column.rows() >= usize::from(CHART) + BESIDE && column.width() >= NARROW {

@@ -1,5 +1,7 @@
 //! Do the keys of a contact's card, of its trial steps and of the message line do what they should?
 
+use carom::app::{Action, Key, Keymap};
+
 use super::app::User;
 
 #[test]
@@ -54,4 +56,16 @@ fn what_happens_unasked_hides_no_answer_and_the_next_key_ends_both() {
     );
     user.type_in("\x1b");
     assert!(!user.text().contains("hash=") && !user.text().contains("silent"), "{}", user.text());
+}
+
+#[test]
+fn messages_name_keys_as_they_are_bound() {
+    let mut keymap = Keymap::default();
+    keymap.bind(Action::NextImpact, &[Key::char('Y')]);
+    keymap.bind(Action::Until, &[Key::char('!')]);
+    let mut user = User::bound("paper-0", true, keymap);
+    user.type_in("(");
+    assert!(user.text().contains("Y goes to a collision"), "{}", user.text());
+    user.type_in("U");
+    assert!(user.text().contains("! asks until what to run"), "{}", user.text());
 }
