@@ -88,7 +88,7 @@ impl Of<'_> {
     /// Which rule gave the class.
     fn why(&self) -> Vec<Line> {
         let (v_n, slow) = (-self.contact.approach_speed, self.snapshot.stage.law.rest_speed);
-        let (speed, limit) = (measured(v_n), number(-slow));
+        let (speed, limit) = (measured(v_n), number(0.0 - slow)); // without the sign of −0
         let reason = self.snapshot.rest_reasons.get(self.index).copied().flatten();
         let text = match (self.contact.class, reason) {
             (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s: it collides"),
