@@ -1,4 +1,4 @@
-//! Keys that came and have not been obeyed yet, and replies: a bounded number, and Ctrl-C before all of them.
+//! Keys that came and have not been obeyed yet, and replies: a bounded number, and a Ctrl-C that waits for few of them.
 
 use std::{
     sync::{
@@ -17,6 +17,12 @@ use crate::app::{Gesture, Input, Key, Mouse};
 /// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
 
+/// While no more inputs wait than a hand types ahead, Ctrl-C is obeyed in its turn: what was typed before it decides what
+/// it closes.
+const AHEAD: usize = 32;
+
+const INTERRUPT: Input = Input::Key(Key::ctrl('c'));
+
 /// As many inputs wait, and the mouse's are left out.
 const MOST_MOTION: usize = MOST / 4;
 
@@ -28,6 +34,9 @@ const MOST_REPLIES: usize = 64;
 struct Shared {
     waiting: AtomicUsize,
     left_out: AtomicUsize,
+    /// A Ctrl-C waits for its turn.
+    interrupting: AtomicBool,
+    /// A Ctrl-C came that waits for nothing.
     interrupted: AtomicBool,
     replies: Mutex<Vec<(Reply, Instant)>>,
 }
@@ -48,10 +57,15 @@ pub(super) fn backlog(post: Post) -> (Entrance, Backlog) {
 }
 
 impl Entrance {
-    /// Takes an input in, or leaves it out if too many wait; a Ctrl-C is never left out and waits for none.
+    /// Takes an input in, or leaves it out if too many wait; a Ctrl-C is never left out, and waits neither for many nor
+    /// for another one.
     pub(super) fn take(&self, input: Input) {
-        if input == Input::Key(Key::ctrl('c')) {
-            if !self.shared.interrupted.swap(true, Ordering::AcqRel) {
+        if input == INTERRUPT {
+            let few = self.shared.waiting.load(Ordering::Acquire) <= AHEAD;
+            if few && !self.shared.interrupting.swap(true, Ordering::AcqRel) {
+                self.shared.waiting.fetch_add(1, Ordering::AcqRel);
+                self.post.send(Event::Typed(input));
+            } else if !self.shared.interrupted.swap(true, Ordering::AcqRel) {
                 self.post.send(Event::Interrupted);
             }
             return;
@@ -86,9 +100,9 @@ impl Entrance {
 }
 
 impl Backlog {
-    /// Whether Ctrl-C was pressed since this was last asked: to ask before each event, whatever it is.
+    /// Whether a Ctrl-C came that ends the program before anything else is obeyed: to ask before each event.
     pub(super) fn interrupted(&self) -> bool {
-        self.0.interrupted.swap(false, Ordering::AcqRel)
+        self.0.interrupted.load(Ordering::Acquire)
     }
 
     /// The replies that came since this was last asked, each with its moment.
@@ -96,8 +110,11 @@ impl Backlog {
         std::mem::take(&mut *self.0.replies.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// An input has been obeyed. When that was the last one: how many were left out since there was none before.
-    pub(super) fn obeyed(&self) -> usize {
+    /// This input is obeyed now. When it was the last one: how many were left out since there was none before.
+    pub(super) fn obeyed(&self, input: &Input) -> usize {
+        if *input == INTERRUPT {
+            self.0.interrupting.store(false, Ordering::Release);
+        }
         match self.0.waiting.fetch_sub(1, Ordering::AcqRel) {
             1 => self.0.left_out.swap(0, Ordering::AcqRel),
             _ => 0,
@@ -119,18 +136,41 @@ mod tests {
         }
         assert!(!backlog.interrupted());
         for _ in 0..1_000_000 {
-            entrance.take(Input::Key(Key::ctrl('c')));
+            entrance.take(INTERRUPT);
         }
-        assert!(backlog.interrupted() && !backlog.interrupted(), "before a single one was obeyed, and once");
+        assert!(backlog.interrupted(), "before a single one was obeyed");
         let waiting: Vec<Event> = events.try_iter().collect();
         assert_eq!(waiting.len(), MOST + 1);
         assert!(matches!(waiting.last(), Some(Event::Interrupted)));
-        let left_out: Vec<usize> = (0..MOST).map(|_| backlog.obeyed()).collect();
+        let left_out: Vec<usize> = (0..MOST).map(|_| backlog.obeyed(&Input::News)).collect();
         assert_eq!(left_out[..MOST - 1], [0; MOST - 1]);
         assert_eq!(left_out[MOST - 1], 1_000_000 - MOST, "said when there is quiet");
         entrance.take(Input::Key(Key::char('?')));
         assert!(matches!(events.try_recv(), Ok(Event::Typed(_))), "there is room again");
-        assert_eq!(backlog.obeyed(), 0);
+        assert_eq!(backlog.obeyed(&Input::News), 0);
+    }
+
+    #[test]
+    fn ctrl_c_takes_its_turn_after_what_a_hand_types_ahead_but_a_second_one_does_not() {
+        let (sender, events) = mpsc::channel();
+        let (entrance, backlog) = backlog(Post(sender));
+        for _ in 0..2 {
+            for c in ":dt 1".chars() {
+                entrance.take(Input::Key(Key::char(c)));
+            }
+            entrance.take(INTERRUPT);
+            assert!(!backlog.interrupted());
+            let waiting: Vec<Event> = events.try_iter().collect();
+            assert!(matches!(waiting[5], Event::Typed(INTERRUPT)) && waiting.len() == 6, "{waiting:?}");
+            for event in waiting {
+                let Event::Typed(input) = event else { panic!("{event:?}") };
+                assert_eq!(backlog.obeyed(&input), 0);
+            }
+        }
+        entrance.take(INTERRUPT);
+        assert!(!backlog.interrupted());
+        entrance.take(INTERRUPT);
+        assert!(backlog.interrupted());
     }
 
     #[test]
@@ -144,7 +184,7 @@ mod tests {
         entrance.take(Input::Key(Key::char('?')));
         let waiting = events.try_iter().count();
         assert_eq!(waiting, MOST_MOTION + 2);
-        assert_eq!((0..waiting).map(|_| backlog.obeyed()).sum::<usize>(), 0);
+        assert_eq!((0..waiting).map(|_| backlog.obeyed(&Input::News)).sum::<usize>(), 0);
     }
 
     #[test]

@@ -28,7 +28,7 @@ use super::{
     writer::Writer,
 };
 use crate::{
-    app::{App, Effect, Input, Key, Setup},
+    app::{App, Effect, Input, Setup},
     frame::Encoder,
 };
 
@@ -151,15 +151,13 @@ impl Driver {
     }
 
     fn obey(&mut self, event: Event) -> Step {
-        if self.backlog.interrupted()
-            && let Some(outcome) = self.handle(Input::Key(Key::ctrl('c')))?
-        {
-            return Ok(Some(outcome));
+        if self.backlog.interrupted() {
+            return Ok(Some(Outcome::Quit)); // whatever is open: a Ctrl-C that only closes that has waited in vain
         }
         match event {
             Event::Typed(input) => {
+                let left_out = self.backlog.obeyed(&input);
                 let step = self.typed(input);
-                let left_out = self.backlog.obeyed();
                 if left_out > 0 {
                     self.app.tell(format!("{left_out} keys came faster than they could be obeyed, and were left out."));
                 }
@@ -250,8 +248,8 @@ impl Driver {
                 Ok(Event::News) => {
                     let _ = self.app.handle(Input::News);
                 }
-                Ok(Event::Typed(_)) => {
-                    let _ = self.backlog.obeyed();
+                Ok(Event::Typed(input)) => {
+                    let _ = self.backlog.obeyed(&input);
                 }
                 Ok(Event::Interrupted | Event::Suspend | Event::Continued) => {}
                 Ok(Event::Panicked(said)) => return Err(panicked(&said)),

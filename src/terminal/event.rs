@@ -9,7 +9,7 @@ use crate::app::Input;
 pub(super) enum Event {
     /// A key was pressed or text pasted.
     Typed(Input),
-    /// Ctrl-C was pressed; see [`Backlog::interrupted`](super::backlog::Backlog::interrupted).
+    /// Ctrl-C was pressed and waits for nothing; see [`Backlog::interrupted`](super::backlog::Backlog::interrupted).
     Interrupted,
     /// The terminal has answered; see [`Backlog::replies`](super::backlog::Backlog::replies).
     Replied,

@@ -83,13 +83,25 @@ fn keys_of_the_desktop_and_released_keys_are_not_ours() {
 
 #[test]
 fn ctrl_c_ends_it_whatever_was_begun() {
-    for begun in ["\x1b[200~never ending", "\x1bP", "\x1b]0;title", "\x1b[", "\x1bO", "\x1b[1;", ":dt 1", "o/box"] {
+    for begun in ["\x1b[200~never ending", "\x1bP", "\x1b]0;title", "\x1b[", "\x1bO", "\x1b[1;", "o/box"] {
         let mut pty = paused();
         pty.send(begun);
         pty.send("\x03");
         assert_eq!(pty.exit(), 0, "{begun:?}");
         pty.assert_given_back();
     }
+}
+
+#[test]
+fn ctrl_c_closes_the_line_however_fast_it_follows_and_a_second_one_ends_it() {
+    let mut pty = paused();
+    pty.send(":dt 1\x03?");
+    pty.until_text("Esc closes"); // by the key behind it, which no line takes any more
+    assert!(pty.text().contains("PAUSE") && !pty.text().contains(":dt"), "{}", pty.text());
+    pty.send(":dt 1");
+    pty.send("\x03\x03");
+    assert_eq!(pty.exit(), 0);
+    pty.assert_given_back();
 }
 
 #[test]
@@ -111,7 +123,7 @@ fn ctrl_c_overtakes_millions_of_keys() {
     let bytes: Vec<u8> = bytes.take(2_000_000).collect();
     let mut pty = paused();
     pty.send_bytes(&bytes);
-    pty.send("\x03");
+    pty.send("\x03\x03"); // all keys before it may have been obeyed, and the last one may have opened a line
     assert_eq!(pty.exit(), 0);
     pty.assert_given_back();
 }
