@@ -38,6 +38,8 @@ mod frames;
 mod history;
 #[path = "screens/keymap.rs"]
 mod keymap;
+#[path = "screens/log.rs"]
+mod log;
 #[path = "screens/look.rs"]
 mod look;
 #[path = "screens/many.rs"]

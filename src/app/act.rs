@@ -3,11 +3,13 @@
 use super::{
     action::{Action, Direction},
     comparison,
+    event_list::{self, EventList},
     input::Effect,
     keys::{Code, Key, pairs},
     knobs,
     line::{LONGEST, Line, Typed},
     prompt::{self, Order},
+    said,
     scene_list::{self, Outcome, SceneList},
     state::{Open, State},
     view_settings,
@@ -56,6 +58,12 @@ impl State {
                     None => return self.act_on(key),
                 }
             }
+            Open::Events(list) => match list.handle(key, &self.report.log) {
+                event_list::Outcome::Stay => {}
+                event_list::Outcome::Close => self.open = Open::Nothing,
+                event_list::Outcome::Go(number) => self.go_to_event(number),
+                event_list::Outcome::NotMine => return self.act_on(key),
+            },
             Open::Nothing => {
                 if !self.turns_card(key) {
                     return self.act_on(key);
@@ -85,6 +93,7 @@ impl State {
         let typing = match &self.open {
             Open::Prompt(_) => true,
             Open::Scenes(list) => list.filtering(),
+            Open::Events(_) => true,
             _ => false,
         };
         if !typing {
@@ -146,6 +155,7 @@ impl State {
             Action::SelectPrevious => self.select(false),
             Action::Inspector => self.next_inspector(),
             Action::Card => self.toggle_card(),
+            Action::Events => self.toggle_events(),
             Action::PreviousTrial => self.turn_trial(false),
             Action::NextTrial => self.turn_trial(true),
             Action::NextOverlays => self.next_overlays(),
@@ -304,6 +314,23 @@ impl State {
             Some(_) => None,
             None => Some(CardView::default()),
         };
+    }
+
+    fn toggle_events(&mut self) {
+        self.open = match self.open {
+            Open::Events(_) => Open::Nothing,
+            _ => Open::Events(EventList::at(&self.report.log, self.report.snapshot.t)),
+        };
+    }
+
+    /// Goes to an event of the list, its first sphere selected, its card open once the run is there.
+    fn go_to_event(&mut self, number: u64) {
+        self.open = Open::Nothing;
+        let Some(event) = self.report.log.get(number).copied() else { return };
+        self.head_for(Command::GotoEvent { number, time: event.time }, true);
+        self.sought = Some(event);
+        self.view_settings.selected = Some(event.a as usize);
+        self.say(said::of_event(&event));
     }
 
     /// Goes through the trial steps of the frame's search, from the first to the last and back to the frame's end.

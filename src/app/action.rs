@@ -71,6 +71,8 @@ pub enum Action {
     Inspector,
     /// Take a contact of the frame apart, or close its card.
     Card,
+    /// List all that has happened, or close the list.
+    Events,
     /// Show the trial step before in the views.
     PreviousTrial,
     /// Show the next trial step in the views.

@@ -149,6 +149,7 @@ const TABLE: &[Binding] = &[
         Action::Card,
         "why: a contact's card; Up Down choose, PageUp PageDown scroll",
     ),
+    bind(&[K::char('L')], Action::Events, "log: all that has happened; type to narrow it, Enter goes there"),
     bind(&[K::char('(')], Action::PreviousTrial, "previous, next trial step of the search, in the views too"),
     bind(&[K::char(')')], Action::NextTrial, "previous, next trial step of the search, in the views too"),
     hint(&[K::char('v')], Action::NextViews, "views: both, side, top", "views"),

@@ -13,6 +13,7 @@
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `event_list` | the list of all that has happened |
 //! | `hints` | the keys that are useful where one is |
 //! | `line` | the `:` line while it is typed |
 //! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
@@ -24,6 +25,7 @@ mod action;
 mod application;
 mod comparison;
 mod current;
+mod event_list;
 mod hints;
 mod input;
 mod key_name;

@@ -2,7 +2,7 @@
 
 use crate::{
     format::{number, rounded, significant, thousands},
-    snapshot::{Class, Contact, Kind},
+    snapshot::{Class, Contact, Kind, Logged},
     worker::{Bodies, Met, Said, Stop},
 };
 
@@ -35,7 +35,7 @@ pub(super) fn sentence(said: &Said, duration: f64) -> String {
 /// What came, after a colon.
 fn came(stop: &Stop, met: &Met) -> String {
     match met {
-        Met::Event(contact) => event(contact),
+        Met::Event(contact) => event(contact.kind, contact.class, contact.a, contact.b),
         Met::Exit(i) => format!("sphere {i} leaves the box around the walls"),
         Met::Time => "it is time".into(),
         Met::Speed(i, speed) => format!("sphere {i} has {} m/s, a {}", rounded(*speed), noun(stop)),
@@ -44,8 +44,13 @@ fn came(stop: &Stop, met: &Met) -> String {
     }
 }
 
-fn event(contact: &Contact) -> String {
-    let Contact { kind, a, b, class, .. } = contact;
+/// A sentence of an event in the list of them.
+pub(super) fn of_event(logged: &Logged) -> String {
+    let Logged { kind, class, a, b, .. } = *logged;
+    format!("t = {} s: {}.", number(logged.time), event(kind, class, a as usize, b as usize))
+}
+
+fn event(kind: Kind, class: Class, a: usize, b: usize) -> String {
     match (kind, class) {
         (Kind::Wall, Class::Rest) => format!("sphere {a} comes to rest on wall {b}"),
         (Kind::Wall, Class::Release) => format!("sphere {a} no longer rests on wall {b}"),

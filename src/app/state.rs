@@ -8,6 +8,7 @@ use super::{
     action::Action,
     comparison::Comparison,
     current::Current,
+    event_list::EventList,
     hints::Place,
     input::Setup,
     keymap::Keymap,
@@ -22,7 +23,7 @@ use super::{
 use crate::{
     printable,
     scene::{self, Settings},
-    snapshot::Class,
+    snapshot::{Class, Logged},
     view::ViewSettings,
     worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
 };
@@ -33,6 +34,7 @@ pub(super) enum Open {
     Nothing,
     Help { scroll: usize },
     Scenes(SceneList),
+    Events(EventList),
     Prompt(Line),
 }
 
@@ -49,6 +51,8 @@ pub(super) struct State {
     pub(super) running: bool,
     /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
     pub(super) has_target: bool,
+    /// The event that the run is on its way to, to be taken apart there.
+    pub(super) sought: Option<Logged>,
     /// What was waited for last.
     pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.
@@ -99,6 +103,7 @@ impl State {
             speed: 1.0,
             running: false,
             has_target: false,
+            sought: None,
             until: None,
             comparison: None,
             cost_told: 0,
@@ -136,6 +141,7 @@ impl State {
         match (&self.open, self.report.activity) {
             (Open::Scenes(_), _) => Place::List,
             (Open::Help { .. }, _) => Place::Help,
+            (Open::Events(_), _) => Place::Events,
             _ if self.report.kept.is_past => Place::Past,
             (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
             _ => Place::Run,
@@ -168,12 +174,14 @@ impl State {
     /// Lets the run go on and on, or pauses it.
     pub(super) fn run(&mut self, on: bool) {
         (self.running, self.has_target) = (on, false);
+        self.sought = None;
         self.worker.send(Command::Run(on));
     }
 
     /// Runs to where a command leads, not on and on.
     pub(super) fn head_for(&mut self, command: Command, on: bool) {
         (self.running, self.has_target) = (on, on);
+        self.sought = None;
         self.worker.send(command);
     }
 

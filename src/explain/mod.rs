@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `card` | one contact: class and rule, speeds, impulse, energy, how deep, why it rests |
 //! | `approach` | how its time follows from a polynomial |
-//! | `sentence` | a contact in one line |
+//! | `sentence` | a contact, or an event of the list, in one line |
 //! | `line` | a line of text and what it is about |
 //!
 //! [`Snapshot`]: crate::snapshot::Snapshot
@@ -19,4 +19,4 @@ mod sentence;
 
 pub use card::{Card, card};
 pub use line::Line;
-pub use sentence::sentence;
+pub use sentence::{event, sentence};

@@ -17,12 +17,13 @@
 //! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
 //! | `card` | one contact taken apart, in the inspector's place |
-//! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes` | a strip or popup each |
+//! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes`, `events` | a strip or popup each |
 
 mod canvas;
 mod card;
 mod column;
 mod draw;
+mod events;
 mod glyphs;
 mod help;
 mod ink;
@@ -50,4 +51,6 @@ pub use draw::{cursor, draw, help_scroll_limit, visible_span};
 pub use ink::{Background, Ink, Inks, MOST_TURNS};
 pub use layout::inspector_is_shown;
 pub use pointing::{Aim, Target, time_at, timeline_row};
-pub use screen::{CardView, Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};
+pub use screen::{
+    CardView, Colors, Comparison, EventsView, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views,
+};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::ink::{Background, Inks};
-use crate::snapshot::{Ghost, Kept, Snapshot, Ticks, Trade};
+use crate::snapshot::{EventFilter, EventLog, Ghost, Kept, Snapshot, Ticks, Trade};
 
 /// Everything one frame shows.
 #[derive(Debug, Clone, Copy)]
@@ -172,6 +172,21 @@ pub enum Colors {
     Rgb,
 }
 
+/// The list of all that has happened, as far as it is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EventsView<'a> {
+    /// What has happened.
+    pub log: &'a EventLog,
+    /// What of it is shown.
+    pub filter: &'a EventFilter,
+    /// What was typed to narrow it.
+    pub typed: &'a str,
+    /// What is wrong with what was typed: a sentence.
+    pub wrong: Option<&'a str>,
+    /// The number of the event under the cursor; none: the newest.
+    pub cursor: Option<u64>,
+}
+
 /// What lies over the views.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Popup<'a> {
@@ -195,6 +210,8 @@ pub enum Popup<'a> {
         /// The one under the cursor.
         cursor: usize,
     },
+    /// The list of all that has happened.
+    Events(EventsView<'a>),
     /// The `:` line, as typed so far, with the byte offset of its cursor.
     Prompt {
         /// Text after the colon.

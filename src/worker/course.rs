@@ -75,6 +75,8 @@ pub(super) struct Course {
     scout: Option<Box<Scout>>,
     /// The frame that was shown when a scout came home last.
     scouted: Option<u64>,
+    /// What has happened again and was not told yet.
+    passed: Vec<Contact>,
 }
 
 impl Course {
@@ -98,6 +100,7 @@ impl Course {
             toward: None,
             scout: None,
             scouted: None,
+            passed: Vec::new(),
         }
     }
 
@@ -111,9 +114,14 @@ impl Course {
         &self.simulation
     }
 
-    /// What has happened since the last call.
+    /// What has happened for the first time since the last call.
     pub(super) fn take_events(&mut self) -> Vec<Contact> {
         self.simulation.take_events()
+    }
+
+    /// What has happened again since the last call, in frames that were done again.
+    pub(super) fn take_passed(&mut self) -> Vec<Contact> {
+        std::mem::take(&mut self.passed)
     }
 
     /// Why it cannot go on, if it cannot.
@@ -134,6 +142,12 @@ impl Course {
     /// Impacts so far.
     pub(super) fn impacts(&self) -> u64 {
         self.simulation.tallies().impacts
+    }
+
+    /// Events so far.
+    pub(super) fn events(&self) -> u64 {
+        let tallies = self.simulation.tallies();
+        tallies.impacts + tallies.rests + tallies.releases
     }
 
     /// Frames completed.
@@ -319,6 +333,7 @@ impl Course {
                 return progress;
             }
         }
+        self.passed.extend(self.simulation.take_events());
         self.catch_up();
         Progress::Reached
     }

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     scene::Settings,
-    snapshot::{Kept, Snapshot, Ticks},
+    snapshot::{EventLog, Kept, Snapshot, Ticks},
 };
 
 /// Called, from the worker's thread, when there is a report that the reader has not taken.
@@ -38,6 +38,13 @@ pub enum Command {
     Newest,
     /// To the first frame that ends at or after this time, s, back or, as fast as possible, on; then pause.
     Goto(f64),
+    /// To the frame in which the event of this number, from 1, at this time, s, has happened; then pause.
+    GotoEvent {
+        /// Its number since t = 0.
+        number: u64,
+        /// Its time, s.
+        time: f64,
+    },
     /// Back to t = 0 with the settings in force; running goes on running.
     Restart,
     /// Run at so many simulated seconds per second, > 0.
@@ -68,6 +75,8 @@ pub struct Report {
     pub snapshot: Arc<Snapshot>,
     /// Collisions so far.
     pub ticks: Arc<Ticks>,
+    /// What has happened so far; of a run that was gone back in, up to its newest frame.
+    pub log: Arc<EventLog>,
     /// What the worker is doing.
     pub activity: Activity,
     /// Simulated seconds per second asked for.

@@ -9,7 +9,7 @@
 //! | `message`, `job` | what goes to a worker and what comes back; what it works on |
 //! | `thread` | the worker, seen from its reader |
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
-//! | `goal`, `stop` | where the run ends its advance; what it waits for |
+//! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
 //! | `course`, `keyframes` | the run and its past; what of it is kept |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
@@ -19,6 +19,7 @@ mod course;
 mod errands;
 mod exact_follower;
 mod goal;
+mod heading;
 mod job;
 mod keyframes;
 mod mailbox;

@@ -48,6 +48,29 @@ fn it_runs_until_what_is_waited_for_and_steps_back() {
 }
 
 #[test]
+fn it_goes_back_from_collision_to_collision_and_to_both_ends() {
+    let said = talk("paper-0", "c\nc\n,\nC\nC\ng\nG\n:goto 0.5\nq\n").succeeds().out;
+    let times: Vec<f64> =
+        said.lines().filter_map(|line| line.strip_prefix("At ")?.strip_suffix(" seconds.")?.parse().ok()).collect();
+    let [start, first, second, before, again, oldest, newest, gone_to] = times[..] else { panic!("{said}") };
+    assert!(start == 0.0 && first < second && before < second && before > first, "{said}");
+    assert_eq!((again, oldest, newest), (first, 0.0, second), "{said}");
+    assert_eq!(said.matches("There is no collision before this one.").count(), 1, "{said}");
+    assert_eq!(gone_to, 0.5, "{said}");
+}
+
+#[test]
+fn it_lists_what_has_happened_as_far_as_it_is_wanted() {
+    let said = talk("paper-3", "log 0 1\n:goto 3\nlog\nlog wall 0\nlog rest\nlog bounce\nL\nq\n").succeeds().out;
+    assert!(said.contains("Nothing of this has happened."), "{said}");
+    let listed = |text: &str| said.lines().filter(|line| line.contains(text) && line.contains(". At ")).count();
+    assert!(listed("spheres 0 and 1 collide") >= 2, "in both whole lists: {said}");
+    assert_eq!(said.matches("On the way").count(), 1, "what was answered before is not said again: {said}");
+    assert_eq!(listed("hits wall 0") % 3, 0, "in both whole lists and in the short one: {said}");
+    assert!(said.contains("bounce is not allowed: a filter takes spheres"), "{said}");
+}
+
+#[test]
 fn orders_are_obeyed_in_turn_and_wrong_ones_are_told() {
     let said =
         talk("paper-0", ":goto 2\n:tolerance 1e-6\n.\n:nonsense\n:hash\n?\nZ\n\u{1b}[A\u{202e}\nq\n").succeeds().out;
