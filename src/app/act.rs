@@ -2,16 +2,14 @@
 
 use super::{
     action::{Action, Direction},
-    comparison,
-    event_list::{self, EventList},
+    comparison, event_list,
     input::Effect,
     keys::{Code, Key, pairs},
     knobs,
     line::{LONGEST, Line, Typed},
     prompt::{self, Order},
-    said,
     scene_list::{self, Outcome, SceneList},
-    state::{Open, State},
+    state::{Open, Sought, State},
     view_settings,
 };
 use crate::{
@@ -123,8 +121,7 @@ impl State {
             Action::TenOn => self.advance(Command::Forward(10)),
             Action::StepBack => self.head_for(Command::Back(1), true),
             Action::TenBack => self.head_for(Command::Back(10), true),
-            Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
-            Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
+            Action::NextImpact | Action::PreviousImpact => self.go_to_impact(action == Action::NextImpact),
             Action::Oldest | Action::Newest => self.go_to_the_end(action == Action::Newest),
             Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
@@ -316,23 +313,6 @@ impl State {
         };
     }
 
-    fn toggle_events(&mut self) {
-        self.open = match self.open {
-            Open::Events(_) => Open::Nothing,
-            _ => Open::Events(EventList::at(&self.report.log, self.report.snapshot.t)),
-        };
-    }
-
-    /// Goes to an event of the list, its first sphere selected, its card open once the run is there.
-    fn go_to_event(&mut self, number: u64) {
-        self.open = Open::Nothing;
-        let Some(event) = self.report.log.get(number).copied() else { return };
-        self.head_for(Command::GotoEvent { number, time: event.time }, true);
-        self.sought = Some(event);
-        self.view_settings.selected = Some(event.a as usize);
-        self.say(said::of_event(&event));
-    }
-
     /// Goes through the trial steps of the frame's search, from the first to the last and back to the frame's end.
     fn turn_trial(&mut self, forward: bool) {
         let trials = self.report.snapshot.trials.len();
@@ -378,6 +358,15 @@ impl State {
     /// To the newest frame, or to the first that is kept.
     fn go_to_the_end(&mut self, newest: bool) {
         self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
+    }
+
+    /// To the next impact or the one before, to select what collides.
+    fn go_to_impact(&mut self, next: bool) {
+        match next {
+            true => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
+            false => self.head_for(Command::PreviousImpact, true),
+        }
+        self.sought = Some(Sought::Impact);
     }
 
     /// The first key of an action, as a text names it.

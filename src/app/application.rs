@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     snapshot::Ghost,
-    view::{self, CardView, EventsView, Mode, Pace, Popup, Screen, ViewSettings},
+    view::{self, EventsView, Mode, Pace, Popup, Screen, ViewSettings},
     worker::{Activity, Notify, Report},
 };
 
@@ -129,7 +129,7 @@ impl App {
             self.state.running = self.state.report.activity == Activity::Running;
             self.state.has_target &= self.state.running;
             self.state.settings = self.state.report.settings;
-            self.take_apart();
+            self.state.look_at_sought();
         }
         if let Some((count, said)) = &self.state.report.said
             && before.said.is_none_or(|(before, _)| before < *count)
@@ -145,15 +145,6 @@ impl App {
         } else {
             Effect::DrawNow
         }
-    }
-
-    /// Opens the card of the event that the run has gone to, once it is there.
-    fn take_apart(&mut self) {
-        let Some(event) = self.state.sought.take_if(|_| !self.state.running) else { return };
-        let snapshot = &self.state.report.snapshot;
-        let order = view::order(snapshot, self.state.view_settings.selected);
-        let cursor = order.iter().position(|&index| event.is(&snapshot.contacts[index]));
-        self.state.view_settings.card = cursor.map(|cursor| CardView { cursor, ..CardView::default() });
     }
 
     /// The screen as it stands, lent to `show`.

@@ -13,7 +13,7 @@
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
-//! | `event_list` | the list of all that has happened |
+//! | `event_list`, `seek` | the list of all that has happened; what is looked at where the run was sent |
 //! | `hints` | the keys that are useful where one is |
 //! | `line` | the `:` line while it is typed |
 //! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
@@ -40,6 +40,7 @@ mod pointer;
 mod prompt;
 mod said;
 mod scene_list;
+mod seek;
 mod state;
 mod until;
 mod view_settings;

@@ -38,6 +38,15 @@ pub(super) enum Open {
     Prompt(Line),
 }
 
+/// What a run is on its way to, to be looked at there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sought {
+    /// An event of the list: its card is opened.
+    Event(Logged),
+    /// Whatever impact comes: what collides is selected.
+    Impact,
+}
+
 /// What the application holds.
 pub(super) struct State {
     pub(super) worker: Worker,
@@ -51,8 +60,8 @@ pub(super) struct State {
     pub(super) running: bool,
     /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
     pub(super) has_target: bool,
-    /// The event that the run is on its way to, to be taken apart there.
-    pub(super) sought: Option<Logged>,
+    /// What the run is on its way to, to be looked at there.
+    pub(super) sought: Option<Sought>,
     /// What was waited for last.
     pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.

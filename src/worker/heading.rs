@@ -2,13 +2,62 @@
 
 use super::{
     goal::{Back, Goal, Way},
-    message::Said,
+    message::{Command, Said},
     pace::Pace,
     run::Runner,
     stop::{Search, Stop},
 };
 
 impl Runner {
+    /// Whether a command waits until the run is where it is headed: searches and steps in a burst are made one after the
+    /// other, each from where the one before has led. Whatever else is asked for comes at once, and they are given up.
+    pub(super) fn waits_its_turn(&mut self, command: &Command) -> bool {
+        let searching = matches!(self.goal, Goal::Until(_) | Goal::Impact(_) | Goal::Event(..) | Goal::Return(_));
+        let waits = match command {
+            Command::Speed(_) => return false,
+            Command::Until(_) | Command::PreviousImpact => !matches!(self.goal, Goal::Nowhere | Goal::On),
+            // frames under way add up
+            Command::Forward(_) | Command::Back(_) => searching || !self.queue.is_empty(),
+            _ => false,
+        };
+        if !waits {
+            self.queue.clear();
+        }
+        waits
+    }
+
+    /// Where the run is there, begins with what comes next.
+    pub(super) fn take_turns(&mut self) {
+        while self.goal.is_nowhere()
+            && let Some(command) = self.queue.pop_front()
+        {
+            match command {
+                Command::Until(stop) => self.search(stop),
+                Command::Forward(frames) => self.on(frames),
+                Command::Back(frames) => self.back(frames),
+                _ => self.back_to_impact(),
+            }
+        }
+    }
+
+    /// So many frames on; of a run that was gone back in, up to the newest.
+    pub(super) fn on(&mut self, frames: u64) {
+        let newest = if self.course.is_past() { self.course.newest().0 } else { u64::MAX };
+        self.go_to_frame(self.frame_ahead().saturating_add(frames).min(newest));
+    }
+
+    /// Back to the frame with the impact before.
+    pub(super) fn back_to_impact(&mut self) {
+        match Back::begin(&mut self.course) {
+            Some(mut back) => {
+                let way = back.look(&mut self.course);
+                self.head_for(Goal::Impact(back));
+                self.follow(way);
+            }
+            None => self.say(Said::NoEarlierImpact),
+        }
+    }
+
     pub(super) fn head_for(&mut self, goal: Goal) {
         self.goal = goal;
         self.pace = Pace::new(self.pace.wanted(), self.now(), self.time());
@@ -101,6 +150,7 @@ impl Runner {
             (Way::There, _) => self.stop_here(),
             (Way::InVain, Goal::Impact(Back { from, .. })) => {
                 self.go_to_frame(*from);
+                self.queue.clear();
                 self.say(Said::NoEarlierImpact);
             }
             _ => {}
@@ -126,6 +176,7 @@ impl Runner {
             return;
         }
         self.say(Said::Nothing { stop, from, within });
+        self.queue.clear();
         self.course.set_out(frame);
         self.head_for(if in_the_past { Goal::Frame(frame) } else { Goal::Return(frame) });
         self.arrive();

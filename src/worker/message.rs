@@ -23,14 +23,15 @@ pub enum Command {
     /// dropped.
     Run(bool),
     /// Complete so many more frames, then pause; of a run that was gone back in, up to the newest. Frames asked for
-    /// while some are under way add up.
+    /// while some are under way add up; while something is searched for, they come after that.
     Forward(u64),
-    /// So many frames back, or as many as there are. Frames asked for while some are under way add up.
+    /// So many frames back, or as many as there are. Frames asked for while some are under way add up; while something
+    /// is searched for, they come after that.
     Back(u64),
     /// Go on, as fast as possible, until this comes; then pause. If it does not come within the scene's duration, the
-    /// run is back where it was.
+    /// run is back where it was. Asked for while the run is on its way somewhere, it begins there.
     Until(Stop),
-    /// Back to the frame with the impact before.
+    /// Back to the frame with the impact before; asked for while the run is on its way somewhere, from there.
     PreviousImpact,
     /// Back to the first frame that is kept.
     Oldest,

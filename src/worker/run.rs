@@ -1,6 +1,7 @@
 //! What the worker's thread does: obey, advance by a slice, report.
 
 use std::{
+    collections::VecDeque,
     sync::{
         Arc,
         mpsc::{Receiver, RecvTimeoutError, TryRecvError},
@@ -10,7 +11,7 @@ use std::{
 
 use super::{
     course::Course,
-    goal::{Back, Goal},
+    goal::Goal,
     job::Job,
     message::{Activity, Command, Report, Said},
     pace::Pace,
@@ -36,6 +37,9 @@ const CALL: f64 = 3e-3;
 /// Reports take at most a fifth of the time, however large the scene.
 const REPORT_SHARE: f64 = 4.0;
 
+/// Commands that wait for others at most: more than a hand types ahead.
+const MOST_WAITING: usize = 1000;
+
 /// A run and its commands.
 pub(super) struct Runner {
     pub(super) commands: Receiver<Command>,
@@ -48,6 +52,8 @@ pub(super) struct Runner {
     pub(super) ticks: Ticks,
     pub(super) log: EventLog,
     pub(super) goal: Goal,
+    /// What begins when the goal is reached, in turn.
+    pub(super) queue: VecDeque<Command>,
     /// What happened in the frame under way, or the one that has just ended.
     pub(super) events: Vec<Contact>,
     /// Whether the next event is of another frame.
@@ -83,6 +89,7 @@ impl Runner {
             alarm: Alarm::default(),
             course,
             goal: Goal::Nowhere,
+            queue: VecDeque::new(),
             events: Vec::new(),
             frame_is_over: true,
             pace: Pace::new(speed, 0.0, 0.0),
@@ -102,8 +109,10 @@ impl Runner {
     /// Obeys, advances and reports until no sender of commands is left.
     pub(super) fn run(&mut self, slot: &Slot<Report>) {
         while self.listen() {
+            self.take_turns();
             if !self.goal.is_nowhere() {
                 self.slice();
+                self.take_turns();
                 self.scouting = true;
             } else if self.scouting {
                 self.scouting = self.course.scout(self.slices.work(), || self.clock.elapsed().as_secs_f64());
@@ -155,6 +164,12 @@ impl Runner {
     fn obey(&mut self, command: Command) {
         self.obeyed += 1;
         self.unreported = true;
+        if self.waits_its_turn(&command) {
+            if self.queue.len() < MOST_WAITING {
+                self.queue.push_back(command);
+            }
+            return;
+        }
         match command {
             Command::Load(job) => {
                 self.goal = Goal::Nowhere;
@@ -166,20 +181,10 @@ impl Runner {
                 self.moved |= self.course.is_past();
                 self.head_for(Goal::Nowhere);
             }
-            Command::Forward(frames) => {
-                let newest = if self.course.is_past() { self.course.newest().0 } else { u64::MAX };
-                self.go_to_frame(self.frame_ahead().saturating_add(frames).min(newest));
-            }
+            Command::Forward(frames) => self.on(frames),
             Command::Back(frames) => self.back(frames),
             Command::Until(stop) => self.search(stop),
-            Command::PreviousImpact => match Back::begin(&mut self.course) {
-                Some(mut back) => {
-                    let way = back.look(&mut self.course);
-                    self.head_for(Goal::Impact(back));
-                    self.follow(way);
-                }
-                None => self.say(Said::NoEarlierImpact),
-            },
+            Command::PreviousImpact => self.back_to_impact(),
             Command::Oldest => self.back(u64::MAX),
             Command::Newest if self.course.is_past() => self.go_to_frame(self.course.newest().0),
             Command::Newest => self.say(Said::Newest),
@@ -323,7 +328,10 @@ impl Runner {
             }
             Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
             Progress::Yielded => {}
-            Progress::Stalled(_) => self.goal = Goal::Nowhere,
+            Progress::Stalled(_) => {
+                self.goal = Goal::Nowhere;
+                self.queue.clear();
+            }
         }
     }
 

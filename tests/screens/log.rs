@@ -1,7 +1,7 @@
 //! Does the list of all that has happened tell what the run told, and lead there?
 
 use carom::{
-    app::{Code, Key},
+    app::{Code, Input, Key},
     physics::{Class, Contact, Settings, Simulation},
     scene::{self, Method},
     snapshot::{EventFilter, EventLog, Logged},
@@ -145,6 +145,60 @@ fn a_search_finds_what_it_waits_for_in_the_newest_frame_too() {
         user.type_in(",c");
         assert_eq!(user.snapshot().hash(), hash, "{keys}: {}", user.text());
     }
+}
+
+#[test]
+fn collisions_asked_for_in_a_burst_are_gone_to_one_after_the_other() {
+    for (name, keys) in
+        [("paper-3", "cccc"), ("paper-3", "ccCcC"), ("galton", "cccccC"), ("paper-0", "ccCCCC"), ("paper-0", ".c.,c")]
+    {
+        let (mut slow, mut fast) = (User::with(name), User::with(name));
+        slow.type_in(keys);
+        for key in keys.chars() {
+            let _ = fast.app.handle(Input::Key(Key::char(key)));
+        }
+        fast.settle();
+        assert_eq!(
+            fast.snapshot().hash(),
+            slow.snapshot().hash(),
+            "{name} {keys}: {} and {} s",
+            fast.snapshot().t,
+            slow.snapshot().t
+        );
+    }
+}
+
+#[test]
+fn escape_gives_up_the_collisions_that_were_asked_for() {
+    let mut user = User::with("galton");
+    for _ in 0..900 {
+        let _ = user.app.handle(Input::Key(Key::char('c')));
+    }
+    user.until("under way", |app| app.report().snapshot.t > 0.0);
+    user.type_in("\x1b");
+    let t = user.snapshot().t;
+    user.type_in("v");
+    assert_eq!(user.snapshot().t, t, "nothing goes on");
+    assert!(user.row(0).contains("PAUSE"), "{}", user.row(0));
+}
+
+#[test]
+fn what_collides_is_selected_and_an_open_card_turns_to_it() {
+    let mut user = User::with("newtons-cradle");
+    user.type_in("mmw");
+    for key in ["c", "c", "c", "C", "c"] {
+        user.type_in(key);
+        let settings = user.app.view_settings();
+        let (selected, card) = (settings.selected.expect("it is selected"), settings.card.expect("it is open"));
+        let order = carom::view::order(user.snapshot(), Some(selected));
+        let contact = user.snapshot().contacts[order[card.cursor]];
+        assert_eq!(contact.class, Class::Collide, "{key}: {}", user.text());
+        assert!([contact.a, contact.b].contains(&selected), "{key}: {contact:?}");
+    }
+    let mut user = User::with("paper-3");
+    user.type_in("\t\tf");
+    user.type_in("ccc");
+    assert_eq!(user.app.view_settings().selected, Some(1), "a sphere that is followed stays selected");
 }
 
 #[test]
