@@ -50,6 +50,8 @@ mod mouse;
 mod projections;
 #[path = "support/stages.rs"]
 mod stages;
+#[path = "screens/taken.rs"]
+mod taken;
 
 use look::look;
 use stages::Scene;

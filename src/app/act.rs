@@ -138,6 +138,7 @@ impl State {
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
             Action::Ghost => self.toggle_ghost(),
+            Action::TakeAway => self.take_away(),
             Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.toggle_scenes(),

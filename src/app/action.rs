@@ -81,6 +81,8 @@ pub enum Action {
     NextOverlays,
     /// Show where the exact run is now, or stop.
     Ghost,
+    /// Write the picture and the state into files.
+    TakeAway,
     /// Type exact values.
     Prompt,
     /// Show the keys, or hide them.

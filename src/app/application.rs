@@ -1,6 +1,9 @@
 //! The application as its owner sees it: inputs in, a buffer out.
 
-use ratatui::{buffer::Buffer, layout::Position};
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+};
 
 use super::{
     comparison::Comparison,
@@ -11,10 +14,14 @@ use super::{
     state::{Open, State},
 };
 use crate::{
-    snapshot::Ghost,
+    frame,
+    snapshot::{Ghost, Snapshot},
     view::{self, EventsView, Mode, Pace, Popup, Screen, ViewSettings},
     worker::{Activity, Notify, Report},
 };
+
+/// Size of a picture that is taken away where there is no screen.
+const PICTURE: Rect = Rect { x: 0, y: 0, width: 120, height: 40 };
 
 /// The application.
 pub struct App {
@@ -91,7 +98,10 @@ impl App {
         let compared = |comparison: &Comparison| comparison.is_settled(self.state.report.snapshot.t);
         let obeyed =
             self.state.report.obeyed == self.state.worker.sent() && self.state.report.activity != Activity::Running;
-        obeyed && self.state.loading.is_none() && self.state.comparison.as_ref().is_none_or(compared)
+        obeyed
+            && self.state.loading.is_none()
+            && self.state.taken.is_none()
+            && self.state.comparison.as_ref().is_none_or(compared)
     }
 
     /// The exact run beside the one shown, where it was asked for and has said anything yet.
@@ -106,10 +116,27 @@ impl App {
 
     /// Takes the scene on its way if it has come, and the worker's latest report.
     fn news(&mut self) -> Effect {
-        match (self.state.look_for_scene(), self.report_news()) {
+        let (scene, report) = (self.state.look_for_scene(), self.report_news());
+        let written = self.state.taken_away().map(|taken| {
+            let picture = self.picture(&taken.snapshot);
+            self.state.write_away(&taken, &picture);
+            Effect::DrawNow
+        });
+        match (scene.or(written), report) {
             (Some(Effect::DrawNow), Effect::Draw) => Effect::DrawNow,
             (_, effect) => effect,
         }
+    }
+
+    /// The picture of a snapshot as an image, without what lies over the views.
+    fn picture(&self, snapshot: &Snapshot) -> String {
+        let area = if self.state.area.is_empty() { PICTURE } else { self.state.area };
+        let mut buffer = Buffer::empty(area);
+        self.with_screen(|screen| {
+            let screen = Screen { snapshot, popup: Popup::None, message: None, ..*screen };
+            view::draw(&screen, area, &mut buffer);
+        });
+        frame::svg(&buffer)
     }
 
     fn report_news(&mut self) -> Effect {

@@ -1,5 +1,7 @@
 //! What the application starts with, what reaches it, and what it asks for in turn.
 
+use std::path::PathBuf;
+
 use super::{keymap::Keymap, keys::Key, mouse::Mouse};
 use crate::{
     scene::{Opened, Settings},
@@ -23,6 +25,8 @@ pub struct Setup {
     pub inks: Inks,
     /// Which key does what.
     pub keymap: Keymap,
+    /// Where files are written.
+    pub folder: PathBuf,
 }
 
 /// What reaches the application from outside.

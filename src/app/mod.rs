@@ -17,6 +17,7 @@
 //! | `hints` | the keys that are useful where one is |
 //! | `line` | the `:` line while it is typed |
 //! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
+//! | `take_away`, `files` | the picture and the state as files, and files that replace none |
 //! | `mouse`, `pointer` | the mouse, and what it does |
 //! | `comparison` | the exact run beside the one shown |
 
@@ -26,6 +27,7 @@ mod application;
 mod comparison;
 mod current;
 mod event_list;
+mod files;
 mod hints;
 mod input;
 mod key_name;
@@ -42,6 +44,7 @@ mod said;
 mod scene_list;
 mod seek;
 mod state;
+mod take_away;
 mod until;
 mod view_settings;
 

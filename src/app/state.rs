@@ -1,6 +1,9 @@
 //! What the application holds, and the steps that keys and news are made of.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::PathBuf,
+    sync::{Arc, mpsc::Receiver},
+};
 
 use ratatui::layout::Rect;
 
@@ -25,7 +28,7 @@ use crate::{
     scene::{self, Settings},
     snapshot::{Class, Logged},
     view::ViewSettings,
-    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
+    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, TakenAway, Worker},
 };
 
 /// What is open over the views.
@@ -87,6 +90,10 @@ pub(super) struct State {
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
+    /// Where files are written.
+    pub(super) folder: PathBuf,
+    /// What is to be written, once the worker has handed it over.
+    pub(super) taken: Option<Receiver<TakenAway>>,
 }
 
 impl State {
@@ -128,6 +135,8 @@ impl State {
             area: Rect::default(),
             help: setup.keymap.help_rows(),
             keymap: setup.keymap,
+            folder: setup.folder,
+            taken: None,
             pointer: Pointer::default(),
         };
         state.warn();

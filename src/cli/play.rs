@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal};
+use std::path::PathBuf;
 
 use super::accuracy;
 use super::arguments::{Color, Play};
@@ -65,7 +66,7 @@ fn tell(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure>
 /// The application that a conversation is led with.
 fn setup(config: Config, opened: Opened, settings: Settings) -> Setup {
     let (marker, colors, inks) = (Marker::Ascii, Colors::Never, config.inks);
-    Setup { opened, settings, paused: true, marker, colors, inks, keymap: config.keymap }
+    Setup { opened, settings, paused: true, marker, colors, inks, keymap: config.keymap, folder: PathBuf::from(".") }
 }
 
 fn show(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure> {

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     physics::{Contact, Progress, Simulation, Stall, Until},
-    scene::{Method, Settings},
+    scene::{Method, Resume, Scene, Settings},
     snapshot::Kept,
 };
 
@@ -67,7 +67,8 @@ pub(super) struct Course {
     changed: usize,
     /// Whether the run can be begun again, with all its changes.
     from_start: bool,
-    /// Impacts at its beginning.
+    /// Its time at its beginning, s, and the impacts there.
+    begun: f64,
     first_impacts: u64,
     newest: Option<Box<Newest>>,
     /// The earlier frame that the run is on its way to from a keyframe, and the work since that or the one kept last, s.
@@ -86,6 +87,7 @@ impl Course {
         let mut keyframes = Keyframes::default();
         keyframes.keep(&simulation, 0, || 0.0);
         Course {
+            begun: simulation.time(),
             first_impacts: simulation.tallies().impacts,
             job,
             simulation,
@@ -122,6 +124,23 @@ impl Course {
     /// What has happened again since the last call, in frames that were done again.
     pub(super) fn take_passed(&mut self) -> Vec<Contact> {
         std::mem::take(&mut self.passed)
+    }
+
+    /// Whether no frame is in progress.
+    pub(super) fn is_whole(&self) -> bool {
+        self.whole
+    }
+
+    /// The scene from which a run goes on that was where this one is, and whether it does so bit for bit. None if a number
+    /// is not finite.
+    pub(super) fn going_on(&self) -> Option<(Scene, bool)> {
+        let (run, settings) = (&self.simulation, self.simulation.settings());
+        let (state, transient) = (run.state(), run.transient());
+        // a run of events says how it began, or nothing, if that is not enough
+        let to_the_bit = !transient.is_empty() || matches!(settings.method, Method::Paper | Method::Moreau);
+        let resume = Resume { t: state.t, transient };
+        let scene = self.job.scene.going_on(settings, resume, &state.x, &state.v).ok()?;
+        Some((scene, to_the_bit))
     }
 
     /// Why it cannot go on, if it cannot.
@@ -170,7 +189,7 @@ impl Course {
     pub(super) fn oldest(&self) -> (u64, f64, u64) {
         let first = self.keyframes.first().map(|kept| (kept.frame, kept.time, kept.impacts));
         match first {
-            _ if self.from_start => (0, 0.0, self.first_impacts),
+            _ if self.from_start => (0, self.begun, self.first_impacts),
             Some(first) => first,
             None => (self.newest().0, self.newest().1, u64::MAX),
         }

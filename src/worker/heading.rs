@@ -14,7 +14,7 @@ impl Runner {
     pub(super) fn waits_its_turn(&mut self, command: &Command) -> bool {
         let searching = matches!(self.goal, Goal::Until(_) | Goal::Impact(_) | Goal::Event(..) | Goal::Return(_));
         let waits = match command {
-            Command::Speed(_) => return false,
+            Command::Speed(_) | Command::TakeAway(_) => return false,
             Command::Until(_) | Command::PreviousImpact => !matches!(self.goal, Goal::Nowhere | Goal::On),
             // frames under way add up
             Command::Forward(_) | Command::Back(_) => searching || !self.queue.is_empty(),

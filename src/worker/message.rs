@@ -1,13 +1,13 @@
 //! What goes to a worker's thread and what comes back.
 
-use std::sync::Arc;
+use std::sync::{Arc, mpsc::Sender};
 
 use super::{
     job::Job,
     stop::{Met, Stop},
 };
 use crate::{
-    scene::Settings,
+    scene::{Scene, Settings},
     snapshot::{EventLog, Kept, Snapshot, Ticks},
 };
 
@@ -46,6 +46,8 @@ pub enum Command {
         /// Its time, s.
         time: f64,
     },
+    /// Hand over the run at the end of its last frame, once none is in progress.
+    TakeAway(Sender<TakenAway>),
     /// Back to t = 0 with the settings in force; running goes on running.
     Restart,
     /// Run at so many simulated seconds per second, > 0.
@@ -56,6 +58,17 @@ pub enum Command {
     #[cfg(debug_assertions)]
     #[doc(hidden)]
     Panic,
+}
+
+/// A run that is taken away.
+#[derive(Debug, Clone)]
+pub struct TakenAway {
+    /// The scene from which it goes on; none if a number of it is not finite.
+    pub scene: Option<Scene>,
+    /// Whether it goes on bit for bit, or to rounding only.
+    pub to_the_bit: bool,
+    /// What there is to draw.
+    pub snapshot: Arc<Snapshot>,
 }
 
 /// What a worker is doing.

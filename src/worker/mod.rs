@@ -33,6 +33,6 @@ mod thread;
 pub use errands::Errands;
 pub use exact_follower::{Ending, ExactFollower};
 pub use job::Job;
-pub use message::{Activity, Command, Notify, Report, Said};
+pub use message::{Activity, Command, Notify, Report, Said, TakenAway};
 pub use stop::{Bodies, Met, Stop};
 pub use thread::Worker;

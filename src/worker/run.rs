@@ -4,7 +4,7 @@ use std::{
     collections::VecDeque,
     sync::{
         Arc,
-        mpsc::{Receiver, RecvTimeoutError, TryRecvError},
+        mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError},
     },
     time::{Duration, Instant},
 };
@@ -13,7 +13,7 @@ use super::{
     course::Course,
     goal::Goal,
     job::Job,
-    message::{Activity, Command, Report, Said},
+    message::{Activity, Command, Report, Said, TakenAway},
     pace::Pace,
     slot::Slot,
 };
@@ -54,6 +54,8 @@ pub(super) struct Runner {
     pub(super) goal: Goal,
     /// What begins when the goal is reached, in turn.
     pub(super) queue: VecDeque<Command>,
+    /// Who waits for the run at the end of the frame in progress.
+    takers: Vec<Sender<TakenAway>>,
     /// What happened in the frame under way, or the one that has just ended.
     pub(super) events: Vec<Contact>,
     /// Whether the next event is of another frame.
@@ -90,6 +92,7 @@ impl Runner {
             course,
             goal: Goal::Nowhere,
             queue: VecDeque::new(),
+            takers: Vec::new(),
             events: Vec::new(),
             frame_is_over: true,
             pace: Pace::new(speed, 0.0, 0.0),
@@ -190,6 +193,7 @@ impl Runner {
             Command::Newest => self.say(Said::Newest),
             Command::Goto(t) => self.go_to_time(t),
             Command::GotoEvent { number, time } => self.go_to_event(number, time),
+            Command::TakeAway(taker) => self.hand_over(taker),
             Command::Speed(wanted) => self.pace = Pace::new(wanted, self.now(), self.time()),
             Command::Settings(settings) => self.solve_with(settings),
             #[cfg(debug_assertions)]
@@ -218,6 +222,28 @@ impl Runner {
         if frames > 0 {
             let t = self.time();
             self.say(Said::Dropped { frames, t });
+        }
+    }
+
+    /// Hands the run over where it is, or at the end of the frame in progress.
+    fn hand_over(&mut self, taker: Sender<TakenAway>) {
+        self.takers.push(taker);
+        if self.course.is_whole() || self.course.stall().is_some() {
+            self.give_takers();
+        } else if self.goal.is_nowhere() {
+            self.head_for(Goal::Frame(self.course.frame() + 1));
+        }
+    }
+
+    fn give_takers(&mut self) {
+        if self.takers.is_empty() {
+            return;
+        }
+        let (scene, to_the_bit) = self.course.going_on().unzip();
+        let snapshot = Arc::new(Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall()));
+        let taken = TakenAway { scene, to_the_bit: to_the_bit == Some(true), snapshot };
+        for taker in self.takers.drain(..) {
+            let _ = taker.send(taken.clone()); // perhaps no longer waited for
         }
     }
 
@@ -323,12 +349,14 @@ impl Runner {
         self.events.extend(events);
         match progress {
             Progress::Reached => {
+                self.give_takers();
                 self.frame_is_over = true;
                 self.arrive();
             }
             Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
             Progress::Yielded => {}
             Progress::Stalled(_) => {
+                self.give_takers();
                 self.goal = Goal::Nowhere;
                 self.queue.clear();
             }

@@ -7,7 +7,13 @@ use crate::program::{Ran, command};
 
 /// What is told when these lines come, all at once, through a pipe.
 fn talk(scene: &str, lines: &str) -> Ran {
+    talk_in(std::path::Path::new("."), scene, lines)
+}
+
+/// The same in a folder.
+fn talk_in(folder: &std::path::Path, scene: &str, lines: &str) -> Ran {
     let mut command = command(&["--text", "--paused", scene]);
+    command.current_dir(folder);
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the built binary");
     let mut stdin = child.stdin.take().expect("a pipe");
@@ -68,6 +74,32 @@ fn it_lists_what_has_happened_as_far_as_it_is_wanted() {
     assert_eq!(said.matches("On the way").count(), 1, "what was answered before is not said again: {said}");
     assert_eq!(listed("hits wall 0") % 3, 0, "in both whole lists and in the short one: {said}");
     assert!(said.contains("bounce is not allowed: a filter takes spheres"), "{said}");
+}
+
+#[test]
+fn a_state_that_is_taken_away_goes_on_to_the_end_that_the_run_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said = talk_in(folder.path(), "paper-3", ":goto 2\ne\nq\n").succeeds().out;
+    assert!(said.contains("paper-3-1.ron, which goes on from t = 2.0"), "{said}");
+    let file = folder.path().join("paper-3-1.ron");
+    let file = file.to_str().expect("a plain path");
+    let end = |scene: &str| {
+        let line = command(&["run", scene, "--until", "9.5"]).output().expect("the built binary");
+        let line = Ran::from(line).succeeds().out;
+        line.split_whitespace().find(|word| word.starts_with("hash=")).map(str::to_owned)
+    };
+    assert!(end(file).is_some());
+    assert_eq!(end(file), end("paper-3"));
+    let rows = Ran::from(
+        command(&["run", file, "--states", "-", "--every", "1", "--until", "4"]).output().expect("the built binary"),
+    );
+    let rows = rows.succeeds().out;
+    let times: Vec<&str> = rows.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(times, ["3.0", "3.0", "4.0", "4.0"], "nothing is told of what was before: {rows}");
+    for arguments in [&["measure", file][..], &["run", file, "--certify"], &["run", file, "--accuracy", "1e-6"]] {
+        let ran = Ran::from(command(arguments).output().expect("the built binary"));
+        assert!(ran.err.contains("counts errors from a scene's start, and this one goes on from t = 2.0"), "{ran:?}");
+    }
 }
 
 #[test]

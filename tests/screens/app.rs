@@ -29,6 +29,8 @@ fn tell(sender: mpsc::Sender<()>) -> Notify {
 pub(crate) struct User {
     pub(crate) app: App,
     news: mpsc::Receiver<()>,
+    /// Where it writes files.
+    pub(crate) folder: tempfile::TempDir,
     pub(crate) screen: Buffer,
 }
 
@@ -42,10 +44,12 @@ impl User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
         let inks = Inks::default();
-        let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16, inks, keymap };
+        let folder = tempfile::tempdir().expect("a folder");
+        let (marker, colors) = (Marker::Ascii, Colors::Ansi16);
+        let setup = Setup { opened, settings, paused, marker, colors, inks, keymap, folder: folder.path().into() };
         let (sender, news) = mpsc::channel();
         let app = App::new(setup, tell(sender)).expect("there is a thread to be had");
-        let mut user = User { app, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };
+        let mut user = User { app, folder, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };
         user.look();
         user
     }

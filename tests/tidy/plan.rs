@@ -27,7 +27,7 @@ pub(crate) const PLAN: &[(&str, &[&str])] = &[
     ),
     ("terminal", &["app", "frame", "printable", "scene", "view"]),
     ("config", &["app", "format", "printable", "scene", "view"]),
-    ("app", &["format", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
+    ("app", &["format", "frame", "geometry", "physics", "printable", "scene", "snapshot", "view", "worker"]),
     ("explain", &["format", "snapshot"]),
     ("recording", &["physics", "scene"]),
     ("worker", &["audit", "measure", "physics", "scene", "snapshot"]),
