@@ -131,7 +131,7 @@ impl User {
         let notify = Arc::new(move || {
             let _ = sender.send(());
         });
-        let job = Job { stage: Arc::new(Stage::of(name, scene)), scene: Arc::clone(scene), settings };
+        let job = Job { stage: Arc::new(Stage::of(name, scene)), scene: Arc::clone(scene), settings, recording: None };
         User { worker: Worker::start(job, 1.0, notify).expect("a thread"), news }
     }
 

@@ -48,6 +48,8 @@ mod many;
 mod mouse;
 #[path = "screens/projections.rs"]
 mod projections;
+#[path = "screens/recorded.rs"]
+mod recorded;
 #[path = "support/stages.rs"]
 mod stages;
 #[path = "screens/taken.rs"]

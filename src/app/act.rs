@@ -113,7 +113,7 @@ impl State {
     /// Does what a key is for. Every action is named, so that a new one that nothing does cannot be built.
     fn act(&mut self, action: Action) -> Effect {
         match action {
-            Action::Quit => return Effect::Quit,
+            Action::Quit => return self.quit(),
             Action::Suspend => return Effect::Suspend,
             Action::Repaint => return Effect::Repaint,
             Action::TogglePause => self.toggle_pause(),
@@ -127,8 +127,7 @@ impl State {
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
             Action::Reload => self.reload(),
-            Action::PreviousScene => self.neighbor_scene(-1),
-            Action::NextScene => self.neighbor_scene(1),
+            Action::PreviousScene | Action::NextScene => self.neighbor_scene(action == Action::NextScene),
             Action::LowerTolerance => self.solve_with(knobs::tolerance(self.settings, 0.1)),
             Action::RaiseTolerance => self.solve_with(knobs::tolerance(self.settings, 10.0)),
             Action::HalveDt => self.solve_with(knobs::dt(self.settings, 0.5)),
@@ -139,6 +138,7 @@ impl State {
             Action::RealTime => self.go_at(Ok(1.0)),
             Action::Ghost => self.toggle_ghost(),
             Action::TakeAway => self.take_away(),
+            Action::Record => self.toggle_recording(),
             Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.toggle_scenes(),
@@ -149,13 +149,11 @@ impl State {
             Action::ZoomOut => self.zoom(1.0 / view_settings::ZOOM, "This is the widest view."),
             Action::WholeScene => view_settings::whole_scene(&mut self.view_settings),
             Action::Follow => self.follow(),
-            Action::SelectNext => self.select(true),
-            Action::SelectPrevious => self.select(false),
+            Action::SelectNext | Action::SelectPrevious => self.select(action == Action::SelectNext),
             Action::Inspector => self.next_inspector(),
             Action::Card => self.toggle_card(),
             Action::Events => self.toggle_events(),
-            Action::PreviousTrial => self.turn_trial(false),
-            Action::NextTrial => self.turn_trial(true),
+            Action::PreviousTrial | Action::NextTrial => self.turn_trial(action == Action::NextTrial),
             Action::NextOverlays => self.next_overlays(),
             Action::Mouse => self.toggle_mouse(),
         }
@@ -204,6 +202,7 @@ impl State {
 
     fn restart(&mut self) {
         let stalled = self.report.activity == Activity::Stalled;
+        self.end_recording();
         self.worker.send(Command::Restart);
         if stalled {
             self.run(false);
@@ -231,7 +230,14 @@ impl State {
         self.view_settings.ghost = self.comparison.is_some();
     }
 
-    fn neighbor_scene(&mut self, offset: isize) {
+    /// Ends, once a recording under way is written.
+    fn quit(&mut self) -> Effect {
+        self.end_recording();
+        Effect::Quit
+    }
+
+    fn neighbor_scene(&mut self, next: bool) {
+        let offset = if next { 1 } else { -1 };
         let names = self.scene_names();
         let at = names.iter().position(|name| *name == self.wanted_name());
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);

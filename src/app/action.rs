@@ -83,6 +83,8 @@ pub enum Action {
     Ghost,
     /// Write the picture and the state into files.
     TakeAway,
+    /// Record the run from here on, or write the recording into a file.
+    Record,
     /// Type exact values.
     Prompt,
     /// Show the keys, or hide them.

@@ -200,6 +200,7 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
         pace: pace(&state.report),
         ticks: &state.report.ticks,
         kept: state.report.kept,
+        recorded: state.report.recorded,
         comparison: state.comparison.as_ref().map(Comparison::shown),
         view_settings: &state.view_settings,
         popup: match &state.open {

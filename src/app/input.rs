@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::{keymap::Keymap, keys::Key, mouse::Mouse};
 use crate::{
+    recording::Recording,
     scene::{Opened, Settings},
     view::{Colors, Inks, Marker},
 };
@@ -25,6 +26,8 @@ pub struct Setup {
     pub inks: Inks,
     /// Which key does what.
     pub keymap: Keymap,
+    /// The recording that the scene is of; its settings are those to solve it with.
+    pub recording: Option<Recording>,
     /// Where files are written.
     pub folder: PathBuf,
 }

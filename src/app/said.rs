@@ -2,6 +2,7 @@
 
 use crate::{
     format::{number, rounded, significant, thousands},
+    recording::Suspect,
     snapshot::{Class, Contact, Kind, Logged},
     worker::{Bodies, Met, Said, Stop},
 };
@@ -29,6 +30,33 @@ pub(super) fn sentence(said: &Said, duration: f64) -> String {
         Said::Oldest { t } => format!("Nothing before t = {} s is kept; r starts again.", significant(*t, 5)),
         Said::Newest => "This is the newest frame.".into(),
         Said::NoEarlierImpact => "There is no collision before this one.".into(),
+        Said::Recording { .. } | Said::NotRecordable | Said::RecordingInThePast => begun(said),
+        Said::RecordingLost => "The recording is given up: the run has gone back to before its beginning.".into(),
+        Said::RecordingFull { frames } => format!("The recording is full: it has {} frames.", thousands(*frames)),
+        Said::Differs { frame, t, suspect } => {
+            let what = match suspect {
+                Suspect::Sphere(index) => format!("sphere {index} is not as recorded"),
+                Suspect::Time => "its time is not as recorded".into(),
+                Suspect::Several => "more than one sphere is not as recorded, or the file is damaged there".into(),
+            };
+            format!("Frame {} differs, at t = {} s: {what}.", thousands(*frame), significant(*t, 5))
+        }
+        Said::RecordingEnds { frame, same } => {
+            let all = if *same { "all of it as recorded" } else { "not all of it as recorded" };
+            format!("The recording ends here, with frame {}: {all}.", thousands(*frame))
+        }
+    }
+}
+
+/// Whether a recording has begun.
+fn begun(said: &Said) -> String {
+    match said {
+        Said::Recording { t } => format!("Recording from t = {} s on.", significant(*t, 5)),
+        Said::RecordingInThePast => {
+            "A recording begins at the newest frame, or where the run goes on from here.".into()
+        }
+        _ => "No recording begins here: the tolerance of swept was changed, so that it would not go on bit for bit."
+            .into(),
     }
 }
 

@@ -20,6 +20,7 @@ use super::{
     loading::Loading,
     mouse::Pointer,
     prompt::Context,
+    said,
     scene_list::{self, SceneList},
     view_settings,
 };
@@ -102,7 +103,8 @@ impl State {
     /// # Errors
     /// If the system has no thread for the worker.
     pub(super) fn begin(setup: Setup, notify: Notify) -> std::io::Result<State> {
-        let current = Current::of(setup.opened);
+        let recording = setup.recording.map(Arc::new);
+        let current = Current { recording, ..Current::of(setup.opened) };
         let worker = Worker::start(current.job(setup.settings), 1.0, Arc::clone(&notify))?;
         let report = worker.take();
         let about = current.scene.about.clone();
@@ -140,6 +142,9 @@ impl State {
             pointer: Pointer::default(),
         };
         state.warn();
+        if let Some((_, said)) = state.report.said {
+            state.tell(said::sentence(&said, state.current.scene.duration));
+        }
         if !setup.paused {
             state.run(true);
         }
@@ -224,6 +229,7 @@ impl State {
     /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
     pub(super) fn show(&mut self, current: Current, settings: Settings) {
         let running = self.running;
+        self.end_recording();
         self.current = current;
         self.settings = settings;
         self.worker.send(Command::Load(self.current.job(settings)));

@@ -1,13 +1,17 @@
 //! What is taken away: the picture as an image, and the state as a scene that goes on from here.
 
-use std::sync::mpsc::{self, TryRecvError};
+use std::{
+    sync::mpsc::{self, TryRecvError},
+    time::Duration,
+};
 
 use super::{files, state::State};
 use crate::{
-    format::significant,
+    format::{counted, significant},
     printable,
+    recording::Recording,
     scene::{self, Scene},
-    worker::{Command, TakenAway},
+    worker::{Command, TakenAway, Taped},
 };
 
 /// Longest text of a scene, bytes: what a file may have to be opened.
@@ -54,6 +58,48 @@ impl State {
             }
             ([svg], Err(why)) => format!("Written: {svg}. The state is not: {why}."),
             _ => "Nothing is written.".into(),
+        });
+    }
+}
+
+/// How long a recording is waited for: a slice of work and the writing of its end.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+impl State {
+    /// Begins a recording, or writes the one under way.
+    pub(super) fn toggle_recording(&mut self) {
+        match self.report.recorded {
+            Some(_) => self.end_recording(),
+            None => self.worker.send(Command::Record),
+        }
+    }
+
+    /// Writes the recording under way, if there is one, and says where it is.
+    pub(super) fn end_recording(&mut self) {
+        if self.report.recorded.is_none() {
+            return;
+        }
+        let (sender, receiver) = mpsc::channel();
+        self.worker.send(Command::EndRecording(sender));
+        match receiver.recv_timeout(PATIENCE) {
+            Ok(Some(taped)) => self.write_recording(taped),
+            Ok(None) => {} // it was given up, which has been said
+            Err(_) => self.say("The recording is lost: the simulation does not answer."),
+        }
+    }
+
+    fn write_recording(&mut self, taped: Taped) {
+        let Taped { key, scene, settings, changes, frames } = taped;
+        let count = frames.len() - 1;
+        let scene = match readable(&scene) {
+            Ok(scene) => scene,
+            Err(why) => return self.say(format!("The recording is not written: {why}.")),
+        };
+        let stem = files::stem(&key);
+        let bytes = Recording { key, scene, settings, changes, frames }.to_bytes();
+        self.say(match files::write(&self.folder, &stem, &[("carom", &bytes)]) {
+            Ok(names) => format!("Written: {}, {}.", names.join(", "), counted(count as u64, "frame")),
+            Err(error) => format!("The recording is not written: {}.", printable::cause(&error)),
         });
     }
 }

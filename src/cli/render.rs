@@ -169,6 +169,7 @@ pub(super) fn screen_of(
         pace: Pace { mode, wanted: speed, reached: None },
         ticks,
         kept: Kept::default(),
+        recorded: None,
         comparison: None,
         view_settings,
         popup: Popup::None,

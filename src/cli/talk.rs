@@ -177,7 +177,11 @@ impl Talk {
     fn press(&mut self, key: Key) -> Result<bool, Failure> {
         match self.keymap.action(key) {
             Some(Action::Help) => self.help()?,
-            Some(Action::Quit) => return Ok(true),
+            Some(Action::Quit) => {
+                self.heed(Input::Key(key))?; // a recording under way is written
+                self.say()?;
+                return Ok(true);
+            }
             Some(Action::Prompt | Action::Until) => {
                 writeln!(self.out, "An order is a line of its own, such as :goto 3.25, or :until rest.")?;
             }

@@ -177,7 +177,8 @@ impl Simulation {
     }
 
     /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
-    /// in the next, N s by sphere. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
+    /// in the next, N s by sphere; then what its watchdog has counted, on which depends when it gives up frames that shrink
+    /// without end: since when, s, how many were cut short, and how long they should have taken at least, s. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
     /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
     /// then the continuation is the same to rounding only. `moreau`: as many rows as contacts held in the last frame:
     /// sphere, other sphere (or −1 − wall), impulse in N s.
@@ -313,7 +314,7 @@ fn is_of(transient: &[DVec3], method: Method, model: &Model) -> bool {
     let spheres = model.len() as f64;
     let index = |value: f64, count: f64| value.fract() == 0.0 && (0.0..count).contains(&value);
     match method {
-        Method::Paper => transient.len() == model.len(),
+        Method::Paper => transient.len() == model.len() || transient.len() == model.len() + 1,
         Method::Exact | Method::Swept => true, // they look themselves
         Method::Moreau => transient.iter().all(|row| {
             let wall = index(-1.0 - row.y, model.faces.len() as f64);

@@ -72,6 +72,7 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
         colors: environment.colors(options.color),
         inks: options.inks,
         keymap: options.keymap,
+        recording: options.recording,
         folder: PathBuf::from("."),
     };
     let (sender, events) = mpsc::channel();

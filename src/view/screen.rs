@@ -16,6 +16,8 @@ pub struct Screen<'a> {
     pub ticks: &'a Ticks,
     /// Which frames one can go to.
     pub kept: Kept,
+    /// Frames of the recording under way.
+    pub recorded: Option<u64>,
     /// The exact run beside this one, where it was asked for.
     pub comparison: Option<Comparison<'a>>,
     /// What the user chose to look at, and how.

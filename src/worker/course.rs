@@ -4,13 +4,16 @@
 //! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
 //! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
 
+mod taken;
+
 use super::{
     job::Job,
     keyframes::{Keyframes, MOST_FRAMES, NOTICED, RECENT},
+    tape::{Found, Script, Tape},
 };
 use crate::{
     physics::{Contact, Progress, Simulation, Stall, Until},
-    scene::{Method, Resume, Scene, Settings},
+    scene::{Method, Settings},
     snapshot::Kept,
 };
 
@@ -76,6 +79,11 @@ pub(super) struct Course {
     scout: Option<Box<Scout>>,
     /// The frame that was shown when a scout came home last.
     scouted: Option<u64>,
+    /// The recording under way, and the one that is followed.
+    tape: Option<Tape>,
+    script: Option<Script>,
+    /// What was found of that, and not told yet.
+    found: Option<Found>,
     /// What has happened again and was not told yet.
     passed: Vec<Contact>,
 }
@@ -84,6 +92,8 @@ impl Course {
     /// The job's run at t = 0.
     pub(super) fn new(job: Job) -> Course {
         let simulation = begin(&job);
+        let mut script = job.recording.clone().map(Script::new);
+        let found = script.as_mut().and_then(|script| script.compare(&simulation));
         let mut keyframes = Keyframes::default();
         keyframes.keep(&simulation, 0, || 0.0);
         Course {
@@ -102,6 +112,9 @@ impl Course {
             toward: None,
             scout: None,
             scouted: None,
+            tape: None,
+            script,
+            found,
             passed: Vec::new(),
         }
     }
@@ -124,23 +137,6 @@ impl Course {
     /// What has happened again since the last call, in frames that were done again.
     pub(super) fn take_passed(&mut self) -> Vec<Contact> {
         std::mem::take(&mut self.passed)
-    }
-
-    /// Whether no frame is in progress.
-    pub(super) fn is_whole(&self) -> bool {
-        self.whole
-    }
-
-    /// The scene from which a run goes on that was where this one is, and whether it does so bit for bit. None if a number
-    /// is not finite.
-    pub(super) fn going_on(&self) -> Option<(Scene, bool)> {
-        let (run, settings) = (&self.simulation, self.simulation.settings());
-        let (state, transient) = (run.state(), run.transient());
-        // a run of events says how it began, or nothing, if that is not enough
-        let to_the_bit = !transient.is_empty() || matches!(settings.method, Method::Paper | Method::Moreau);
-        let resume = Resume { t: state.t, transient };
-        let scene = self.job.scene.going_on(settings, resume, &state.x, &state.v).ok()?;
-        Some((scene, to_the_bit))
     }
 
     /// Why it cannot go on, if it cannot.
@@ -204,8 +200,9 @@ impl Course {
     }
 
     /// From here on, or from the end of the frame in progress, other settings; whether they wait for that. The run is
-    /// at its newest frame.
+    /// at its newest frame. It follows no recording any more.
     pub(super) fn set(&mut self, settings: Settings) -> bool {
+        self.script = None;
         if !self.whole && self.stall.is_none() {
             self.waiting = Some(settings);
             return true;
@@ -249,11 +246,18 @@ impl Course {
         {
             self.begin_anew(); // frames are as long as this goal makes them: they could not be found again
         }
-        let waits = self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
+        self.make_due(false);
+        let before = self.frame();
+        let one_by_one = self.tape.is_some() || self.script.as_ref().is_some_and(|script| script.goes_on(self.frame()));
+        let waits = one_by_one || self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
         let progress = self.simulation.advance(if waits { Until::Frame } else { until }, work.min(self.most_work()));
         self.whole = progress == Progress::Reached;
         if let Progress::Stalled(stall) = &progress {
             self.stall = Some(stall.clone());
+        }
+        // also one at whose end the run cannot go on
+        if self.frame() > before {
+            self.note_frame();
         }
         match (self.waiting, &progress) {
             (Some(settings), Progress::Reached) => self.change(settings),
@@ -261,6 +265,7 @@ impl Course {
                 self.change(settings);
                 return Progress::Yielded; // tried again
             }
+            (None, Progress::Stalled(_)) if self.make_due(true) => return Progress::Yielded,
             _ => {}
         }
         progress
@@ -447,6 +452,8 @@ impl Course {
         self.keyframes.cut(self.frame(), self.time());
         self.scouted = None;
         self.changes.truncate(self.changed);
+        let frame = self.frame();
+        self.tape = self.tape.take_if(|tape| tape.cut(frame));
         newest.simulation.tallies().frames - self.frame()
     }
 
@@ -455,6 +462,7 @@ impl Course {
         self.keyframes = Keyframes::default();
         self.changes.clear();
         self.changed = 0;
+        (self.tape, self.script) = (None, None);
         self.from_start = false;
     }
 }

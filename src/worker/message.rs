@@ -5,8 +5,10 @@ use std::sync::{Arc, mpsc::Sender};
 use super::{
     job::Job,
     stop::{Met, Stop},
+    tape::Taped,
 };
 use crate::{
+    recording::Suspect,
     scene::{Scene, Settings},
     snapshot::{EventLog, Kept, Snapshot, Ticks},
 };
@@ -48,6 +50,10 @@ pub enum Command {
     },
     /// Hand over the run at the end of its last frame, once none is in progress.
     TakeAway(Sender<TakenAway>),
+    /// Record from the end of the frame shown, or in progress, on.
+    Record,
+    /// End the recording under way, and hand it over; nothing, if there is none.
+    EndRecording(Sender<Option<Taped>>),
     /// Back to t = 0 with the settings in force; running goes on running.
     Restart,
     /// Run at so many simulated seconds per second, > 0.
@@ -101,6 +107,8 @@ pub struct Report {
     pub obeyed: u64,
     /// What it is, or will be from the next frame on, solved with.
     pub settings: Settings,
+    /// Frames of the recording under way.
+    pub recorded: Option<u64>,
     /// Which frames one can go to.
     pub kept: Kept,
     /// What there was to say last, and its number, from 1.
@@ -155,4 +163,36 @@ pub enum Said {
     Newest,
     /// There is no earlier impact.
     NoEarlierImpact,
+    /// A recording begins here.
+    Recording {
+        /// When, s.
+        t: f64,
+    },
+    /// No recording begins here: the run could not go on from here bit for bit.
+    NotRecordable,
+    /// No recording begins in the past of a run.
+    RecordingInThePast,
+    /// The recording under way is given up: the run has gone back to before its beginning.
+    RecordingLost,
+    /// The recording under way takes no more frames.
+    RecordingFull {
+        /// How many it has.
+        frames: u64,
+    },
+    /// The run is not as the recording that it follows.
+    Differs {
+        /// The first frame that differs.
+        frame: u64,
+        /// Its time, s.
+        t: f64,
+        /// What differs in it.
+        suspect: Suspect,
+    },
+    /// The recording that the run follows is over.
+    RecordingEnds {
+        /// With this frame.
+        frame: u64,
+        /// Whether all of it was as recorded.
+        same: bool,
+    },
 }

@@ -11,6 +11,7 @@
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
 //! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
 //! | `course`, `keyframes` | the run and its past; what of it is kept |
+//! | `tape`, `recorder` | a recording under way, and one that is followed |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
@@ -25,9 +26,11 @@ mod keyframes;
 mod mailbox;
 mod message;
 mod pace;
+mod recorder;
 mod run;
 mod slot;
 mod stop;
+mod tape;
 mod thread;
 
 pub use errands::Errands;
@@ -35,4 +38,5 @@ pub use exact_follower::{Ending, ExactFollower};
 pub use job::Job;
 pub use message::{Activity, Command, Notify, Report, Said, TakenAway};
 pub use stop::{Bodies, Met, Stop};
+pub use tape::Taped;
 pub use thread::Worker;

@@ -56,6 +56,8 @@ pub(super) struct Runner {
     pub(super) queue: VecDeque<Command>,
     /// Who waits for the run at the end of the frame in progress.
     takers: Vec<Sender<TakenAway>>,
+    /// Whether a recording begins at the end of the frame in progress.
+    pub(super) wants_tape: bool,
     /// What happened in the frame under way, or the one that has just ended.
     pub(super) events: Vec<Contact>,
     /// Whether the next event is of another frame.
@@ -93,6 +95,7 @@ impl Runner {
             goal: Goal::Nowhere,
             queue: VecDeque::new(),
             takers: Vec::new(),
+            wants_tape: false,
             events: Vec::new(),
             frame_is_over: true,
             pace: Pace::new(speed, 0.0, 0.0),
@@ -106,6 +109,7 @@ impl Runner {
             report_due: 0.0,
         };
         runner.note_events();
+        runner.tell_found();
         runner
     }
 
@@ -194,6 +198,11 @@ impl Runner {
             Command::Goto(t) => self.go_to_time(t),
             Command::GotoEvent { number, time } => self.go_to_event(number, time),
             Command::TakeAway(taker) => self.hand_over(taker),
+            Command::Record => self.record(),
+            Command::EndRecording(taker) => {
+                self.wants_tape = false;
+                let _ = taker.send(self.course.end_tape()); // perhaps no longer waited for
+            }
             Command::Speed(wanted) => self.pace = Pace::new(wanted, self.now(), self.time()),
             Command::Settings(settings) => self.solve_with(settings),
             #[cfg(debug_assertions)]
@@ -218,8 +227,11 @@ impl Runner {
 
     /// Has the run go on from the frame shown, and says that the later ones are dropped.
     fn branch(&mut self) {
+        let recorded = self.course.taped().is_some();
         let frames = self.cut();
-        if frames > 0 {
+        if recorded && self.course.taped().is_none() {
+            self.say(Said::RecordingLost);
+        } else if frames > 0 {
             let t = self.time();
             self.say(Said::Dropped { frames, t });
         }
@@ -275,7 +287,9 @@ impl Runner {
 
     pub(super) fn begin_again(&mut self, settings: Settings) {
         let on = matches!(self.goal, Goal::On);
-        self.restart(Job { settings, ..self.course.job().clone() });
+        let job = self.course.job();
+        let settings = job.recording.as_ref().map_or(settings, |recording| recording.settings);
+        self.restart(Job { settings, ..job.clone() });
         self.head_for(if on { Goal::On } else { Goal::Nowhere });
     }
 
@@ -283,12 +297,14 @@ impl Runner {
         self.ticks = Ticks::new(job.stage.duration);
         self.log = EventLog::default();
         self.course = Course::new(job);
+        self.wants_tape = false;
         self.watch = Watch::new(self.course.simulation());
         self.alarm = Alarm::default();
         self.events.clear();
         self.note_events();
         self.cpu = 0.0;
         self.moved = true;
+        self.tell_found();
     }
 
     /// Takes note of what has happened for the first time since the last call, and tells it.
@@ -350,8 +366,10 @@ impl Runner {
         match progress {
             Progress::Reached => {
                 self.give_takers();
+                self.begin_tape();
                 self.frame_is_over = true;
                 self.arrive();
+                self.tell_found();
             }
             Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
             Progress::Yielded => {}
@@ -390,6 +408,7 @@ impl Runner {
             reached: self.pace.reached(),
             obeyed: self.obeyed,
             settings: self.course.settings(),
+            recorded: self.course.taped().map(|(frames, _)| frames),
             kept: self.course.kept(),
             said: self.said,
             cpu: self.cpu,

@@ -103,6 +103,31 @@ fn a_state_that_is_taken_away_goes_on_to_the_end_that_the_run_has() {
 }
 
 #[test]
+fn a_recording_with_changes_is_replayed_and_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said =
+        talk_in(folder.path(), "paper-3", ":goto 0.5\nE\n:goto 1\nmm\n:goto 1.5\ns\n:goto 2\nq\n").succeeds().out;
+    assert!(said.contains("Recording from t = 0.5 s on."), "{said}");
+    let file = folder.path().join("paper-3-1.carom");
+    let file = file.to_str().expect("a plain path");
+    let ran = |arguments: &[&str]| Ran::from(command(arguments).output().expect("the built binary"));
+    let replayed = ran(&["replay", file]).succeeds().out;
+    assert!(replayed.trim().ends_with("same"), "written at the end of the talk, and the same: {replayed}");
+    let told = talk(file, ":goto 9\n:hash\nq\n").succeeds().out;
+    assert!(told.contains("all of it as recorded."), "{told}");
+    let hash = |text: &str| text.split_whitespace().find(|word| word.starts_with("hash=")).map(str::to_owned);
+    assert_eq!(hash(&told), hash(&replayed));
+    assert!(ran(&["--text", "--paused", file, "--dt", "0.1"]).fails_with(2).err.contains("its own settings"));
+    assert!(ran(&["--text", file]).fails_with(2).err.contains("with --paused only"));
+    let mut bytes = std::fs::read(file).expect("it is there");
+    let last = bytes.len() - 8 * 40 + 2;
+    bytes[last] ^= 0x10;
+    std::fs::write(file, bytes).expect("written");
+    assert!(ran(&["replay", file]).fails_with(1).err.contains("differs"));
+    assert!(talk(file, ":goto 9\nq\n").succeeds().out.contains("differs, at t = "));
+}
+
+#[test]
 fn orders_are_obeyed_in_turn_and_wrong_ones_are_told() {
     let said =
         talk("paper-0", ":goto 2\n:tolerance 1e-6\n.\n:nonsense\n:hash\n?\nZ\n\u{1b}[A\u{202e}\nq\n").succeeds().out;

@@ -43,6 +43,7 @@ impl Scene {
             pace: self.pace,
             ticks: &self.ticks,
             kept: self.kept,
+            recorded: None,
             comparison: self.comparison.as_ref().map(|(ghost, trade)| Comparison { ghost: ghost.as_ref(), trade }),
             view_settings: &self.view_settings,
             popup: Popup::None,
