@@ -30,6 +30,8 @@ mod card_keys;
 mod comparison;
 #[path = "screens/depth.rs"]
 mod depth;
+#[path = "screens/drawn.rs"]
+mod drawn;
 #[path = "screens/emulators.rs"]
 mod emulators;
 #[path = "screens/frames.rs"]
@@ -270,7 +272,8 @@ fn hostile(seed: usize) -> Scene {
     (scene.ticks.span, scene.ticks.impacts) = (value(seed), vec![u32::MAX; seed]);
     (scene.pace.wanted, scene.pace.reached) = (value(1), Some(value(2)));
     scene.view_settings.selected = Some(if seed.is_multiple_of(3) { usize::MAX } else { 1 });
-    scene.view_settings.overlays = Overlays { contacts: true, normals: true, velocities: true, ids: true };
+    scene.view_settings.overlays =
+        Overlays { contacts: true, normals: true, velocities: true, ids: true, ..Overlays::default() };
     scene
 }
 

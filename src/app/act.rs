@@ -414,6 +414,10 @@ impl State {
                 self.until = Some(stop);
                 self.until_again();
             }
+            Ok(Some(Order::Show(names, on))) => {
+                let said = view_settings::show(&mut self.view_settings, &names, on);
+                self.say(said.unwrap_or_else(|wrong| wrong));
+            }
             Ok(Some(Order::Hash)) => {
                 let snapshot = &self.report.snapshot;
                 self.say(format!("t={:?} hash={:016x}", snapshot.t, snapshot.hash()));

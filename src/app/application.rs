@@ -39,12 +39,14 @@ impl App {
 
     /// Obeys one input.
     pub fn handle(&mut self, input: Input) -> Effect {
-        match input {
+        let effect = match input {
             Input::Key(key) => self.state.key(key),
             Input::Mouse(mouse) => self.state.mouse(mouse, |state, show| with_screen(state, show)),
             Input::Paste(text) => self.state.paste(&text),
             Input::News => self.news(),
-        }
+        };
+        self.state.look_around();
+        effect
     }
 
     /// Draws the application as it stands over the whole buffer.
@@ -201,6 +203,9 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
         ticks: &state.report.ticks,
         kept: state.report.kept,
         recorded: state.report.recorded,
+        trail: &state.report.trail,
+        ahead: state.report.ahead.as_deref(),
+        log: Some(&state.report.log),
         comparison: state.comparison.as_ref().map(Comparison::shown),
         view_settings: &state.view_settings,
         popup: match &state.open {

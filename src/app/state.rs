@@ -28,7 +28,7 @@ use crate::{
     printable,
     scene::{self, Settings},
     snapshot::{Class, Logged},
-    view::ViewSettings,
+    view::{self, ViewSettings},
     worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, TakenAway, Worker},
 };
 
@@ -93,6 +93,8 @@ pub(super) struct State {
     pub(super) help: Vec<(String, &'static str)>,
     /// Where files are written.
     pub(super) folder: PathBuf,
+    /// What was asked for around the frame shown: trails, and what comes next of a sphere.
+    pub(super) around: (bool, Option<usize>),
     /// What is to be written, once the worker has handed it over.
     pub(super) taken: Option<Receiver<TakenAway>>,
 }
@@ -138,6 +140,7 @@ impl State {
             help: setup.keymap.help_rows(),
             keymap: setup.keymap,
             folder: setup.folder,
+            around: (false, None),
             taken: None,
             pointer: Pointer::default(),
         };
@@ -176,6 +179,17 @@ impl State {
         let stage = &self.current.stage;
         let (spheres, walls) = (stage.radii.len(), stage.walls.len());
         Context { spheres, walls, selected: self.view_settings.selected, scenes }
+    }
+
+    /// Asks for what is shown around the frame: where spheres were, what comes next of the selected one.
+    pub(super) fn look_around(&mut self) {
+        let settings = &self.view_settings;
+        let wanted = settings.overlays.predicted || view::inspector_is_shown(settings, self.area);
+        let around = (settings.overlays.path, settings.selected.filter(|_| wanted));
+        if around != self.around {
+            self.around = around;
+            self.worker.send(Command::Around { path: around.0, sphere: around.1 });
+        }
     }
 
     /// Answers the last key, in place of the key hints, until the next key.

@@ -14,11 +14,13 @@
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
 //! | `side` | which way a view looks |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
+//! | `arrows`, `paths` | impulses and forces to a scale; where spheres were, and where one goes |
 //! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
 //! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
 //! | `card` | one contact taken apart, in the inspector's place |
 //! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes`, `events` | a strip or popup each |
 
+mod arrows;
 mod canvas;
 mod card;
 mod column;
@@ -32,6 +34,7 @@ mod layout;
 mod overlays;
 mod palette;
 mod pane;
+mod paths;
 mod pointing;
 mod probes;
 mod projection;

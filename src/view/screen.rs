@@ -1,9 +1,11 @@
 //! Everything that a frame shows: what a caller fills in, and every part of the view reads.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::ink::{Background, Inks};
-use crate::snapshot::{EventFilter, EventLog, Ghost, Kept, Snapshot, Ticks, Trade};
+use crate::snapshot::{Ahead, EventFilter, EventLog, Ghost, Kept, Snapshot, Ticks, Trade};
 
 /// Everything one frame shows.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +18,12 @@ pub struct Screen<'a> {
     pub ticks: &'a Ticks,
     /// Which frames one can go to.
     pub kept: Kept,
+    /// Where all spheres were in the last frames, the one shown included, the newest last, m, if that is known.
+    pub trail: &'a [Arc<Vec<DVec3>>],
+    /// What comes next of the selected sphere, if that is known.
+    pub ahead: Option<&'a Ahead>,
+    /// What has happened so far.
+    pub log: Option<&'a EventLog>,
     /// Frames of the recording under way.
     pub recorded: Option<u64>,
     /// The exact run beside this one, where it was asked for.
@@ -148,6 +156,14 @@ pub struct Overlays {
     pub velocities: bool,
     /// Sphere numbers.
     pub ids: bool,
+    /// Impulses of impacts, as arrows to a scale.
+    pub impulses: bool,
+    /// Support forces of contacts at rest, as arrows to a scale.
+    pub forces: bool,
+    /// Where spheres were in the last frames.
+    pub path: bool,
+    /// Where the selected sphere goes until its next contact.
+    pub predicted: bool,
 }
 
 /// How dots become characters.

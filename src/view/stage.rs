@@ -3,6 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::{
+    arrows::Quantity,
     canvas::{Canvas, Ink, Layer},
     layout::Pane,
     overlays,
@@ -185,6 +186,9 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     }
     if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.view_settings.overlays.velocities) {
         extra += &format!("  {} {} s", sheet.glyphs.arrow, format::setting(seconds));
+    }
+    for quantity in [Quantity::Impulse, Quantity::Force] {
+        extra += &quantity.label(view).unwrap_or_default();
     }
     let scale = scale_bar(view, sheet) + " ";
     let room = usize::from(label.width - used);

@@ -79,6 +79,8 @@ pub(super) struct Course {
     scout: Option<Box<Scout>>,
     /// The frame that was shown when a scout came home last.
     scouted: Option<u64>,
+    /// Whether every call ends with a frame.
+    frame_by_frame: bool,
     /// The recording under way, and the one that is followed.
     tape: Option<Tape>,
     script: Option<Script>,
@@ -112,6 +114,7 @@ impl Course {
             toward: None,
             scout: None,
             scouted: None,
+            frame_by_frame: false,
             tape: None,
             script,
             found,
@@ -236,6 +239,11 @@ impl Course {
         self.changed += 1;
     }
 
+    /// Has every call end with a frame, or not.
+    pub(super) fn go_frame_by_frame(&mut self, on: bool) {
+        self.frame_by_frame = on;
+    }
+
     /// Goes on: one call of [`Simulation::advance`] to the goal, or to a frame before it where there is something to do.
     pub(super) fn advance(&mut self, until: Until, work: u64) -> Progress {
         if self.is_past() {
@@ -248,7 +256,9 @@ impl Course {
         }
         self.make_due(false);
         let before = self.frame();
-        let one_by_one = self.tape.is_some() || self.script.as_ref().is_some_and(|script| script.goes_on(self.frame()));
+        let one_by_one = self.frame_by_frame
+            || self.tape.is_some()
+            || self.script.as_ref().is_some_and(|script| script.goes_on(self.frame()));
         let waits = one_by_one || self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
         let progress = self.simulation.advance(if waits { Until::Frame } else { until }, work.min(self.most_work()));
         self.whole = progress == Progress::Reached;
@@ -348,7 +358,9 @@ impl Course {
         } else {
             let next = self.changes.get(self.changed).map_or(f64::INFINITY, |change| change.time);
             let until = match until {
-                Until::Time(t) if t.min(next) > self.simulation.time() => Until::Time(t.min(next)),
+                Until::Time(t) if !self.frame_by_frame && t.min(next) > self.simulation.time() => {
+                    Until::Time(t.min(next))
+                }
                 _ => Until::Frame,
             };
             let progress = self.simulation.advance(until, work);

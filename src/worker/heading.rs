@@ -14,7 +14,11 @@ impl Runner {
     pub(super) fn waits_its_turn(&mut self, command: &Command) -> bool {
         let searching = matches!(self.goal, Goal::Until(_) | Goal::Impact(_) | Goal::Event(..) | Goal::Return(_));
         let waits = match command {
-            Command::Speed(_) | Command::TakeAway(_) | Command::Record | Command::EndRecording(_) => return false,
+            Command::Speed(_)
+            | Command::Around { .. }
+            | Command::TakeAway(_)
+            | Command::Record
+            | Command::EndRecording(_) => return false,
             Command::Until(_) | Command::PreviousImpact => !matches!(self.goal, Goal::Nowhere | Goal::On),
             // frames under way add up
             Command::Forward(_) | Command::Back(_) => searching || !self.queue.is_empty(),
@@ -159,7 +163,7 @@ impl Runner {
 
     pub(super) fn stop_here(&mut self) {
         self.goal = Goal::Nowhere;
-        self.moved = true;
+        (self.moved, self.scouting) = (true, true);
     }
 
     /// Whether what was waited for has come, or the scene's duration is over without it: then back to where it began.

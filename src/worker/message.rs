@@ -3,6 +3,7 @@
 use std::sync::{Arc, mpsc::Sender};
 
 use super::{
+    around::Places,
     job::Job,
     stop::{Met, Stop},
     tape::Taped,
@@ -10,7 +11,7 @@ use super::{
 use crate::{
     recording::Suspect,
     scene::{Scene, Settings},
-    snapshot::{EventLog, Kept, Snapshot, Ticks},
+    snapshot::{Ahead, EventLog, Kept, Snapshot, Ticks},
 };
 
 /// Called, from the worker's thread, when there is a report that the reader has not taken.
@@ -47,6 +48,14 @@ pub enum Command {
         number: u64,
         /// Its time, s.
         time: f64,
+    },
+    /// Keep where all spheres were in the last frames, or not; and look ahead, with nothing else to do, for the next contact
+    /// of a sphere.
+    Around {
+        /// Whether to keep where the spheres were.
+        path: bool,
+        /// The sphere.
+        sphere: Option<usize>,
     },
     /// Hand over the run at the end of its last frame, once none is in progress.
     TakeAway(Sender<TakenAway>),
@@ -111,6 +120,10 @@ pub struct Report {
     pub recorded: Option<u64>,
     /// Which frames one can go to.
     pub kept: Kept,
+    /// Where all spheres were in the last frames, the one shown included, the newest last, m, if that was asked for.
+    pub trail: Vec<Places>,
+    /// What comes next of a sphere, if it was asked for and is known yet.
+    pub ahead: Option<Arc<Ahead>>,
     /// What there was to say last, and its number, from 1.
     pub said: Option<(u64, Said)>,
     /// CPU time spent on the run since t = 0, s; 0 where the system does not tell.

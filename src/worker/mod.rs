@@ -12,10 +12,12 @@
 //! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
 //! | `course`, `keyframes` | the run and its past; what of it is kept |
 //! | `tape`, `recorder` | a recording under way, and one that is followed |
+//! | `around` | what was shortly before, and what comes next of a sphere |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
 
+mod around;
 mod course;
 mod errands;
 mod exact_follower;
@@ -33,6 +35,7 @@ mod stop;
 mod tape;
 mod thread;
 
+pub use around::Places;
 pub use errands::Errands;
 pub use exact_follower::{Ending, ExactFollower};
 pub use job::Job;

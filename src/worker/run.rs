@@ -10,6 +10,7 @@ use std::{
 };
 
 use super::{
+    around::Around,
     course::Course,
     goal::Goal,
     job::Job,
@@ -54,6 +55,7 @@ pub(super) struct Runner {
     pub(super) goal: Goal,
     /// What begins when the goal is reached, in turn.
     pub(super) queue: VecDeque<Command>,
+    around: Around,
     /// Who waits for the run at the end of the frame in progress.
     takers: Vec<Sender<TakenAway>>,
     /// Whether a recording begins at the end of the frame in progress.
@@ -94,6 +96,7 @@ impl Runner {
             course,
             goal: Goal::Nowhere,
             queue: VecDeque::new(),
+            around: Around::default(),
             takers: Vec::new(),
             wants_tape: false,
             events: Vec::new(),
@@ -122,7 +125,7 @@ impl Runner {
                 self.take_turns();
                 self.scouting = true;
             } else if self.scouting {
-                self.scouting = self.course.scout(self.slices.work(), || self.clock.elapsed().as_secs_f64());
+                self.scout();
             }
             let now = self.now();
             if self.unreported && (self.goal.is_nowhere() || now >= self.report_due) {
@@ -131,6 +134,23 @@ impl Runner {
                 self.report_due = now + TICK.max(cost * REPORT_SHARE);
             }
         }
+    }
+
+    /// With nothing else to do.
+    fn scout(&mut self) {
+        let (work, clock) = (self.slices.work(), || self.clock.elapsed().as_secs_f64());
+        let before = self.around.ahead(&self.course).is_some();
+        let looks = self.around.look(&self.course, work, clock);
+        self.unreported |= self.around.ahead(&self.course).is_some() != before;
+        self.scouting = looks || self.course.scout(work, clock);
+    }
+
+    /// Keeps and looks for what is asked for around the frame shown.
+    fn look_around(&mut self, path: bool, sphere: Option<usize>) {
+        self.around.ask(path, sphere);
+        self.around.pass(self.course.simulation());
+        self.course.go_frame_by_frame(path);
+        self.scouting = true;
     }
 
     /// Obeys what has arrived; sleeps first if there is nothing else to do. False if no sender is left.
@@ -197,6 +217,7 @@ impl Runner {
             Command::Newest => self.say(Said::Newest),
             Command::Goto(t) => self.go_to_time(t),
             Command::GotoEvent { number, time } => self.go_to_event(number, time),
+            Command::Around { path, sphere } => self.look_around(path, sphere),
             Command::TakeAway(taker) => self.hand_over(taker),
             Command::Record => self.record(),
             Command::EndRecording(taker) => {
@@ -268,6 +289,7 @@ impl Runner {
         let run = self.course.simulation();
         self.ticks.cut(run.time(), run.tallies().impacts);
         self.log.cut(self.course.events());
+        self.around.cut(Some(self.course.frame()));
         self.alarm = until(both(&self.alarm, self.watch.alarm()), run.time());
         self.watch = Watch::new(run);
         self.events.clear();
@@ -301,6 +323,9 @@ impl Runner {
         self.watch = Watch::new(self.course.simulation());
         self.alarm = Alarm::default();
         self.events.clear();
+        self.around.cut(None);
+        self.around.pass(self.course.simulation());
+        self.course.go_frame_by_frame(self.around.follows());
         self.note_events();
         self.cpu = 0.0;
         self.moved = true;
@@ -368,6 +393,7 @@ impl Runner {
                 self.give_takers();
                 self.begin_tape();
                 self.frame_is_over = true;
+                self.around.pass(self.course.simulation());
                 self.arrive();
                 self.tell_found();
             }
@@ -410,6 +436,8 @@ impl Runner {
             settings: self.course.settings(),
             recorded: self.course.taped().map(|(frames, _)| frames),
             kept: self.course.kept(),
+            trail: self.around.trail(self.course.frame()),
+            ahead: self.around.ahead(&self.course),
             said: self.said,
             cpu: self.cpu,
             panic: None,
