@@ -46,6 +46,7 @@ impl App {
             Input::News => self.news(),
         };
         self.state.look_around();
+        self.state.show_trial();
         effect
     }
 
@@ -186,7 +187,6 @@ impl App {
 fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
     let message = state.message();
     let snapshot = &state.report.snapshot;
-    let trial = state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
     let hints = hints(&state.keymap, state.place());
     let (help, hints) = (pairs(&state.help), pairs(&hints));
     let entries: Vec<(&str, &str)> = match &state.open {
@@ -198,7 +198,7 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
         _ => String::new(),
     };
     show(&Screen {
-        snapshot: trial.as_ref().unwrap_or(snapshot),
+        snapshot: state.trial.as_ref().map_or(snapshot, |trial| &trial.shown),
         pace: pace(&state.report),
         ticks: &state.report.ticks,
         kept: state.report.kept,

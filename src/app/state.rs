@@ -27,7 +27,7 @@ use super::{
 use crate::{
     printable,
     scene::{self, Settings},
-    snapshot::{Class, Logged},
+    snapshot::{Class, Logged, Snapshot},
     view::{self, ViewSettings},
     worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, TakenAway, Worker},
 };
@@ -49,6 +49,14 @@ pub(super) enum Sought {
     Event(Logged),
     /// Whatever impact comes: what collides is selected.
     Impact,
+}
+
+/// A trial step of a frame's search, to be drawn as often as need be.
+pub(super) struct Trial {
+    /// The frame, and the number of the trial step.
+    of: (Arc<Snapshot>, usize),
+    /// The frame with its spheres where they were tried.
+    pub(super) shown: Snapshot,
 }
 
 /// What the application holds.
@@ -95,6 +103,8 @@ pub(super) struct State {
     pub(super) folder: PathBuf,
     /// What was asked for around the frame shown: trails, and what comes next of a sphere.
     pub(super) around: (bool, Option<usize>),
+    /// The trial step in the views, if one is.
+    pub(super) trial: Option<Trial>,
     /// What is to be written, once the worker has handed it over.
     pub(super) taken: Option<Receiver<TakenAway>>,
 }
@@ -140,6 +150,7 @@ impl State {
             help: setup.keymap.help_rows(),
             keymap: setup.keymap,
             folder: setup.folder,
+            trial: None,
             around: (false, None),
             taken: None,
             pointer: Pointer::default(),
@@ -189,6 +200,20 @@ impl State {
         if around != self.around {
             self.around = around;
             self.worker.send(Command::Around { path: around.0, sphere: around.1 });
+        }
+    }
+
+    /// Has the trial step that the card asks for ready to be drawn.
+    pub(super) fn show_trial(&mut self) {
+        let snapshot = &self.report.snapshot;
+        let Some(probe) = self.view_settings.card.and_then(|card| card.probe) else {
+            self.trial = None;
+            return;
+        };
+        let is = |trial: &Trial| Arc::ptr_eq(&trial.of.0, snapshot) && trial.of.1 == probe;
+        if !self.trial.as_ref().is_some_and(is) {
+            let shown = snapshot.at_trial(probe);
+            self.trial = shown.map(|shown| Trial { of: (Arc::clone(snapshot), probe), shown });
         }
     }
 
