@@ -38,6 +38,8 @@ mod emulators;
 mod frames;
 #[path = "screens/history.rs"]
 mod history;
+#[path = "screens/inspected.rs"]
+mod inspected;
 #[path = "screens/keymap.rs"]
 mod keymap;
 #[path = "screens/log.rs"]

@@ -41,6 +41,8 @@ pub struct Snapshot {
     pub probes: Vec<Probe>,
     /// Centres in each of these trial steps, m; empty if there are too many of them, or if the next frame is in progress.
     pub trials: Vec<Vec<DVec3>>,
+    /// What the model leaves out because the scene does not require it, a phrase each.
+    pub left_out: Vec<&'static str>,
     /// Counted since t = 0.
     pub tallies: Tallies,
     /// Name of the method.
@@ -75,6 +77,7 @@ impl Snapshot {
             approaches: approaches(sim),
             probes: sim.probes().to_vec(),
             trials: trials(sim),
+            left_out: sim.model().requirements().left_out(),
             tallies: sim.tallies(),
             method: settings.method.name(),
             dt: settings.dt,

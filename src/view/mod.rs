@@ -16,7 +16,7 @@
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
 //! | `arrows`, `paths` | impulses and forces to a scale; where spheres were, and where one goes |
 //! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
-//! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
+//! | `column`, `inspector`, `sphere`, `probes` | the inspector: its rows, its sections, the selected sphere, the search for the collision time |
 //! | `card` | one contact taken apart, in the inspector's place |
 //! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes`, `events` | a strip or popup each |
 
@@ -44,6 +44,7 @@ mod screen;
 mod shapes;
 mod sheet;
 mod side;
+mod sphere;
 mod stage;
 mod status;
 mod timeline;

@@ -103,6 +103,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         approaches: Vec::new(),
         probes: Vec::new(),
         trials: Vec::new(),
+        left_out: Vec::new(),
         tallies: Tallies::default(),
         method: "paper",
         dt: 0.01,
