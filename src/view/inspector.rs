@@ -4,6 +4,7 @@ use ratatui::layout::Rect;
 
 use super::{
     column::Column,
+    distribution,
     layout::split_left,
     probes,
     screen::Screen,
@@ -29,7 +30,11 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (_, area) = split_left(area, 1);
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let mut column = Column::new(area, sheet);
-    sphere::draw(screen, &mut column);
+    // with a sphere selected it is that one that matters
+    let chosen = screen.view_settings.selected.is_some();
+    if chosen || !distribution::draw(screen.snapshot, &mut column) {
+        sphere::draw(screen, &mut column);
+    }
     // Only sizes decide what is shown, never how many contacts there are: nothing jumps while it runs.
     if column.rows() >= RUN + CONTACTS {
         draw_run(screen.snapshot, &mut column);

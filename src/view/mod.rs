@@ -17,6 +17,7 @@
 //! | `arrows`, `paths` | impulses and forces to a scale; where spheres were, and where one goes |
 //! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
 //! | `column`, `inspector`, `sphere`, `probes` | the inspector: its rows, its sections, the selected sphere, the search for the collision time |
+//! | `distribution` | how many spheres are how fast, or where: a chart |
 //! | `card` | one contact taken apart, in the inspector's place |
 //! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes`, `events` | a strip or popup each |
 
@@ -24,6 +25,7 @@ mod arrows;
 mod canvas;
 mod card;
 mod column;
+mod distribution;
 mod draw;
 mod events;
 mod glyphs;

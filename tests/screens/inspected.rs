@@ -1,9 +1,16 @@
 //! Does the inspector tell of the selected sphere what can be checked by hand?
 
-use carom::{frame, snapshot::Class};
+use std::sync::Arc;
+
+use carom::{
+    frame,
+    physics::Simulation,
+    scene,
+    snapshot::{Class, Snapshot, Stage},
+};
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::app::User;
+use super::{app::User, stages};
 
 /// The screen at 140×50, where the inspector has room for all.
 fn wide(user: &mut User) -> String {
@@ -50,4 +57,25 @@ fn a_sphere_at_rest_is_held_by_what_it_lies_on() {
     user.type_in("C,");
     let text = wide(&mut user);
     assert!(text.contains("last  collides, wall 0, ") && text.contains("next  collides, wall 0, "), "{text}");
+}
+
+/// The chart of a scene by its own method at a time, 120×40.
+fn chart(name: &str, until: f64) -> Buffer {
+    let opened = scene::open(name).expect("built in");
+    let mut run = Simulation::new(&opened.scene, opened.scene.solver);
+    run.run_to(until, |_| Some(Simulation::SLICE));
+    let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
+    let scene = stages::Scene { snapshot: Snapshot::of(&stage, &run, None), ..stages::drop() };
+    super::draw(&scene.screen(), 120, 40)
+}
+
+#[test]
+fn a_gas_shows_its_speeds_beside_maxwells_and_a_galton_board_where_its_balls_lie() {
+    let gas = frame::text(&chart("box-gas", 0.5));
+    assert!(gas.contains("speeds  line: Maxwell's"), "{gas}");
+    let board = chart("galton", 15.0);
+    let text = frame::text(&board);
+    assert!(text.contains("places  ") && text.contains("along x"), "{text}");
+    let bars = |row: u16| (91..119).filter(|x| board[(*x, row)].symbol() != " ").count();
+    assert!((2..9).any(|row| bars(row) > 0) && bars(8) < 28, "where there is no ball there is no bar\n{text}");
 }
