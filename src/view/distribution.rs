@@ -10,8 +10,10 @@ use super::{
 use crate::format;
 use crate::snapshot::Snapshot;
 
-/// From so many spheres on there is a distribution to be seen.
-const MANY: usize = 10;
+/// From so many spheres on there is a distribution of speeds to be seen, and one of places.
+const SPEEDS: usize = 50;
+/// See [`SPEEDS`].
+const PLACES: usize = 14;
 
 /// Rows of the chart.
 const CHART: u16 = 7;
@@ -39,12 +41,13 @@ struct Counts {
 /// Draws the chart where there are spheres enough, and room; whether it did. Without gravity it is of speeds, which in a gas become
 /// Maxwell's; with gravity of places across, which on a Galton board become a bell.
 pub(super) fn draw(snapshot: &Snapshot, column: &mut Column) -> bool {
-    let count = snapshot.x.len();
-    if count < MANY || column.rows() < usize::from(CHART) + UNDER {
+    let flies = snapshot.stage.gravity == glam::DVec3::ZERO;
+    let least = if flies { SPEEDS } else { PLACES };
+    if snapshot.x.len() < least || column.rows() < usize::from(CHART) + UNDER {
         return false;
     }
     let bars = BARS.min(column.width());
-    let (heading, counts, unit) = match snapshot.stage.gravity == glam::DVec3::ZERO {
+    let (heading, counts, unit) = match flies {
         true => ("speeds", speeds(snapshot, bars), "m/s"),
         false => ("places", places(snapshot, bars / 2), "m"),
     };

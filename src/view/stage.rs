@@ -56,7 +56,12 @@ fn draw_walls(view: &mut View, sheet: &Sheet) {
         let ink = Ink::new(Layer::Wall, sheet.palette.wall(*color));
         let dots = corners.map(|corner| view.project(corner));
         for i in 0..4 {
-            shapes::line(&mut view.canvas, dots[i], dots[(i + 1) % 4], ink);
+            let (from, to) = (dots[i], dots[(i + 1) % 4]);
+            shapes::line(&mut view.canvas, from, to, ink);
+            // a wall that the view cuts goes on there
+            for (x, y, side) in shapes::leaves(&view.canvas, from, to) {
+                view.canvas.sign(x, y, sheet.glyphs.on[side], ink);
+            }
         }
     }
 }
