@@ -41,7 +41,8 @@ fn reached(name: &str, compared: bool) -> f64 {
     let notify = Arc::new(move || {
         let _ = sender.send(());
     });
-    let job = Job { stage: Arc::new(Stage::of(name, &scene)), scene: Arc::clone(&scene), settings: scene.solver };
+    let (stage, settings) = (Arc::new(Stage::of(name, &scene)), scene.solver);
+    let job = Job { stage, scene: Arc::clone(&scene), settings, recording: None };
     let mut worker = Worker::start(job, 1e9, notify.clone()).expect("a thread");
     let beside = compared.then(|| ExactFollower::start(scene, None, notify).expect("a thread"));
     worker.send(Command::Run(true));

@@ -53,7 +53,6 @@ pub mod physics;
 pub mod printable;
 #[doc(hidden)]
 pub mod random;
-#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod recording;
 #[doc(hidden)]

@@ -30,14 +30,20 @@ mod card_keys;
 mod comparison;
 #[path = "screens/depth.rs"]
 mod depth;
+#[path = "screens/drawn.rs"]
+mod drawn;
 #[path = "screens/emulators.rs"]
 mod emulators;
 #[path = "screens/frames.rs"]
 mod frames;
 #[path = "screens/history.rs"]
 mod history;
+#[path = "screens/inspected.rs"]
+mod inspected;
 #[path = "screens/keymap.rs"]
 mod keymap;
+#[path = "screens/log.rs"]
+mod log;
 #[path = "screens/look.rs"]
 mod look;
 #[path = "screens/many.rs"]
@@ -46,8 +52,12 @@ mod many;
 mod mouse;
 #[path = "screens/projections.rs"]
 mod projections;
+#[path = "screens/recorded.rs"]
+mod recorded;
 #[path = "support/stages.rs"]
 mod stages;
+#[path = "screens/taken.rs"]
+mod taken;
 
 use look::look;
 use stages::Scene;
@@ -264,7 +274,8 @@ fn hostile(seed: usize) -> Scene {
     (scene.ticks.span, scene.ticks.impacts) = (value(seed), vec![u32::MAX; seed]);
     (scene.pace.wanted, scene.pace.reached) = (value(1), Some(value(2)));
     scene.view_settings.selected = Some(if seed.is_multiple_of(3) { usize::MAX } else { 1 });
-    scene.view_settings.overlays = Overlays { contacts: true, normals: true, velocities: true, ids: true };
+    scene.view_settings.overlays =
+        Overlays { contacts: true, normals: true, velocities: true, ids: true, ..Overlays::default() };
     scene
 }
 

@@ -14,9 +14,19 @@ mod pty;
 #[path = "support/watch.rs"]
 mod watch;
 
-use std::{fs, time::Duration};
+use std::{
+    fs,
+    sync::{Arc, mpsc},
+    time::Duration,
+};
 
-use pty::{PATIENCE, Pty, carom};
+use ::carom::{
+    scene::{self, Method, Settings},
+    snapshot::Stage,
+    worker::{Activity, Command, Job, Worker},
+};
+
+use pty::{PATIENCE, Pty};
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 
 /// Pictures looked at in the ordinary tests.
@@ -79,7 +89,7 @@ fn growth(readings: &[u64]) -> u64 {
 fn soak(scene: &str, environment: &[(&str, &str)], slack: u64) {
     let pictures = std::env::var("CAROM_SOAK").map_or(FEW, |count| count.parse().expect("CAROM_SOAK is a number"));
     let slack = if pictures < LONG { SETUP } else { slack };
-    let mut pty = pty::Start { environment, ..carom(&[scene]) }.run();
+    let mut pty = pty::Start { environment, ..pty::carom(&[scene]) }.run();
     pty.allow(PATIENCE + PICTURE * pictures as u32);
     pty.until_text("space pause");
     pty.send(":speed 1e9\rx");
@@ -106,6 +116,43 @@ fn what_grows_without_end_is_told_from_what_has_come_to_an_end() {
     assert_eq!(growth(&mebibytes(|n| 20 + n)), 15 << 20, "a mebibyte in each of the last fifteen readings");
     assert!(growth(&mebibytes(|n| 20 + n / 4)) > CHANCE, "a quarter of that");
     assert_eq!(growth(&mebibytes(|n| if n == 39 { 60 } else { 20 })), 40 << 20, "at the very end");
+}
+
+/// A crowd of which a moment takes a third of a megabyte, so that some hundred frames fill the room for the past.
+const CROWD: &str = "Scene(duration: 100, contact: (restitution: 1, tangential: 1, rest_speed: 0), \
+                     walls: [Room(min: (-10, 0, -10), max: (10, 20, 10))], spheres: [Gas(min: (-10, 0, -10), \
+                     max: (10, 20, 10), count: 10000, seed: 7, speed: 1, mass: 1, radius: 0.1)])";
+
+/// Resident memory of this process, bytes.
+fn resident() -> u64 {
+    let pages = fs::read_to_string("/proc/self/statm").expect("the system tells");
+    let pages: u64 = pages.split(' ').nth(1).and_then(|pages| pages.parse().ok()).expect("a number");
+    pages * 4096
+}
+
+#[test]
+fn the_past_of_a_crowd_stays_within_its_64_mebibytes_of_the_process() {
+    let scene = Arc::new(scene::parse(CROWD, "crowd").expect("a scene"));
+    let stage = Arc::new(Stage::of("crowd", &scene));
+    let settings = Settings { method: Method::Paper, ..scene.solver };
+    let before = resident();
+    let (sender, news) = mpsc::channel();
+    let notify = Arc::new(move || {
+        let _ = sender.send(());
+    });
+    let mut worker = Worker::start(Job { stage, scene, settings, recording: None }, 1.0, notify).expect("a thread");
+    worker.send(Command::Forward(600));
+    let report = loop {
+        let report = worker.take();
+        if report.obeyed == worker.sent() && report.activity != Activity::Running {
+            break report;
+        }
+        news.recv_timeout(PATIENCE).expect("it goes on");
+    };
+    let grown = resident() - before;
+    assert!(report.kept.oldest > 0, "the room was full: frames from {} on are kept", report.kept.oldest);
+    // beside the past there are the run itself and its snapshots
+    assert!((40 << 20..(64 << 20) + SETUP).contains(&grown), "{grown} bytes");
 }
 
 #[test]

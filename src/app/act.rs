@@ -2,14 +2,14 @@
 
 use super::{
     action::{Action, Direction},
-    comparison,
+    comparison, event_list,
     input::Effect,
     keys::{Code, Key, pairs},
     knobs,
     line::{LONGEST, Line, Typed},
     prompt::{self, Order},
     scene_list::{self, Outcome, SceneList},
-    state::{Open, State},
+    state::{Open, Sought, State},
     view_settings,
 };
 use crate::{
@@ -56,6 +56,12 @@ impl State {
                     None => return self.act_on(key),
                 }
             }
+            Open::Events(list) => match list.handle(key, &self.report.log) {
+                event_list::Outcome::Stay => {}
+                event_list::Outcome::Close => self.open = Open::Nothing,
+                event_list::Outcome::Go(number) => self.go_to_event(number),
+                event_list::Outcome::NotMine => return self.act_on(key),
+            },
             Open::Nothing => {
                 if !self.turns_card(key) {
                     return self.act_on(key);
@@ -85,6 +91,7 @@ impl State {
         let typing = match &self.open {
             Open::Prompt(_) => true,
             Open::Scenes(list) => list.filtering(),
+            Open::Events(_) => true,
             _ => false,
         };
         if !typing {
@@ -106,7 +113,7 @@ impl State {
     /// Does what a key is for. Every action is named, so that a new one that nothing does cannot be built.
     fn act(&mut self, action: Action) -> Effect {
         match action {
-            Action::Quit => return Effect::Quit,
+            Action::Quit => return self.quit(),
             Action::Suspend => return Effect::Suspend,
             Action::Repaint => return Effect::Repaint,
             Action::TogglePause => self.toggle_pause(),
@@ -114,15 +121,13 @@ impl State {
             Action::TenOn => self.advance(Command::Forward(10)),
             Action::StepBack => self.head_for(Command::Back(1), true),
             Action::TenBack => self.head_for(Command::Back(10), true),
-            Action::NextImpact => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
-            Action::PreviousImpact => self.head_for(Command::PreviousImpact, true),
+            Action::NextImpact | Action::PreviousImpact => self.go_to_impact(action == Action::NextImpact),
             Action::Oldest | Action::Newest => self.go_to_the_end(action == Action::Newest),
             Action::Until => self.open = Open::Prompt(Line::new("until ")),
             Action::UntilAgain => self.until_again(),
             Action::Restart => self.restart(),
             Action::Reload => self.reload(),
-            Action::PreviousScene => self.neighbor_scene(-1),
-            Action::NextScene => self.neighbor_scene(1),
+            Action::PreviousScene | Action::NextScene => self.neighbor_scene(action == Action::NextScene),
             Action::LowerTolerance => self.solve_with(knobs::tolerance(self.settings, 0.1)),
             Action::RaiseTolerance => self.solve_with(knobs::tolerance(self.settings, 10.0)),
             Action::HalveDt => self.solve_with(knobs::dt(self.settings, 0.5)),
@@ -132,6 +137,8 @@ impl State {
             Action::Slower => self.go_at(knobs::speed(self.speed, 0.5)),
             Action::RealTime => self.go_at(Ok(1.0)),
             Action::Ghost => self.toggle_ghost(),
+            Action::TakeAway => self.take_away(),
+            Action::Record => self.toggle_recording(),
             Action::Prompt => self.open = Open::Prompt(Line::default()),
             Action::Help => self.toggle_help(),
             Action::Scenes => self.toggle_scenes(),
@@ -142,12 +149,11 @@ impl State {
             Action::ZoomOut => self.zoom(1.0 / view_settings::ZOOM, "This is the widest view."),
             Action::WholeScene => view_settings::whole_scene(&mut self.view_settings),
             Action::Follow => self.follow(),
-            Action::SelectNext => self.select(true),
-            Action::SelectPrevious => self.select(false),
+            Action::SelectNext | Action::SelectPrevious => self.select(action == Action::SelectNext),
             Action::Inspector => self.next_inspector(),
             Action::Card => self.toggle_card(),
-            Action::PreviousTrial => self.turn_trial(false),
-            Action::NextTrial => self.turn_trial(true),
+            Action::Events => self.toggle_events(),
+            Action::PreviousTrial | Action::NextTrial => self.turn_trial(action == Action::NextTrial),
             Action::NextOverlays => self.next_overlays(),
             Action::Mouse => self.toggle_mouse(),
         }
@@ -196,6 +202,7 @@ impl State {
 
     fn restart(&mut self) {
         let stalled = self.report.activity == Activity::Stalled;
+        self.end_recording();
         self.worker.send(Command::Restart);
         if stalled {
             self.run(false);
@@ -223,7 +230,14 @@ impl State {
         self.view_settings.ghost = self.comparison.is_some();
     }
 
-    fn neighbor_scene(&mut self, offset: isize) {
+    /// Ends, once a recording under way is written.
+    fn quit(&mut self) -> Effect {
+        self.end_recording();
+        Effect::Quit
+    }
+
+    fn neighbor_scene(&mut self, next: bool) {
+        let offset = if next { 1 } else { -1 };
         let names = self.scene_names();
         let at = names.iter().position(|name| *name == self.wanted_name());
         let next = at.map_or(0, |at| (at as isize + offset).rem_euclid(names.len() as isize) as usize);
@@ -353,6 +367,15 @@ impl State {
         self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
+    /// To the next impact or the one before, to select what collides.
+    fn go_to_impact(&mut self, next: bool) {
+        match next {
+            true => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
+            false => self.head_for(Command::PreviousImpact, true),
+        }
+        self.sought = Some(Sought::Impact);
+    }
+
     /// The first key of an action, as a text names it.
     fn key_of(&self, action: Action) -> String {
         self.keymap.keys(action).first().map_or_else(|| format!("the key of {}", action.name()), Key::to_string)
@@ -390,6 +413,10 @@ impl State {
             Ok(Some(Order::Until(stop))) => {
                 self.until = Some(stop);
                 self.until_again();
+            }
+            Ok(Some(Order::Show(names, on))) => {
+                let said = view_settings::show(&mut self.view_settings, &names, on);
+                self.say(said.unwrap_or_else(|wrong| wrong));
             }
             Ok(Some(Order::Hash)) => {
                 let snapshot = &self.report.snapshot;

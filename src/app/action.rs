@@ -71,6 +71,8 @@ pub enum Action {
     Inspector,
     /// Take a contact of the frame apart, or close its card.
     Card,
+    /// List all that has happened, or close the list.
+    Events,
     /// Show the trial step before in the views.
     PreviousTrial,
     /// Show the next trial step in the views.
@@ -79,6 +81,10 @@ pub enum Action {
     NextOverlays,
     /// Show where the exact run is now, or stop.
     Ghost,
+    /// Write the picture and the state into files.
+    TakeAway,
+    /// Record the run from here on, or write the recording into a file.
+    Record,
     /// Type exact values.
     Prompt,
     /// Show the keys, or hide them.

@@ -1,6 +1,9 @@
 //! The application as its owner sees it: inputs in, a buffer out.
 
-use ratatui::{buffer::Buffer, layout::Position};
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+};
 
 use super::{
     comparison::Comparison,
@@ -11,10 +14,14 @@ use super::{
     state::{Open, State},
 };
 use crate::{
-    snapshot::Ghost,
-    view::{self, Mode, Pace, Popup, Screen, ViewSettings},
+    frame,
+    snapshot::{Ghost, Snapshot},
+    view::{self, EventsView, Mode, Pace, Popup, Screen, ViewSettings},
     worker::{Activity, Notify, Report},
 };
+
+/// Size of a picture that is taken away where there is no screen.
+const PICTURE: Rect = Rect { x: 0, y: 0, width: 120, height: 40 };
 
 /// The application.
 pub struct App {
@@ -32,12 +39,15 @@ impl App {
 
     /// Obeys one input.
     pub fn handle(&mut self, input: Input) -> Effect {
-        match input {
+        let effect = match input {
             Input::Key(key) => self.state.key(key),
             Input::Mouse(mouse) => self.state.mouse(mouse, |state, show| with_screen(state, show)),
             Input::Paste(text) => self.state.paste(&text),
             Input::News => self.news(),
-        }
+        };
+        self.state.look_around();
+        self.state.show_trial();
+        effect
     }
 
     /// Draws the application as it stands over the whole buffer.
@@ -91,7 +101,10 @@ impl App {
         let compared = |comparison: &Comparison| comparison.is_settled(self.state.report.snapshot.t);
         let obeyed =
             self.state.report.obeyed == self.state.worker.sent() && self.state.report.activity != Activity::Running;
-        obeyed && self.state.loading.is_none() && self.state.comparison.as_ref().is_none_or(compared)
+        obeyed
+            && self.state.loading.is_none()
+            && self.state.taken.is_none()
+            && self.state.comparison.as_ref().is_none_or(compared)
     }
 
     /// The exact run beside the one shown, where it was asked for and has said anything yet.
@@ -106,10 +119,27 @@ impl App {
 
     /// Takes the scene on its way if it has come, and the worker's latest report.
     fn news(&mut self) -> Effect {
-        match (self.state.look_for_scene(), self.report_news()) {
+        let (scene, report) = (self.state.look_for_scene(), self.report_news());
+        let written = self.state.taken_away().map(|taken| {
+            let picture = self.picture(&taken.snapshot);
+            self.state.write_away(&taken, &picture);
+            Effect::DrawNow
+        });
+        match (scene.or(written), report) {
             (Some(Effect::DrawNow), Effect::Draw) => Effect::DrawNow,
             (_, effect) => effect,
         }
+    }
+
+    /// The picture of a snapshot as an image, without what lies over the views.
+    fn picture(&self, snapshot: &Snapshot) -> String {
+        let area = if self.state.area.is_empty() { PICTURE } else { self.state.area };
+        let mut buffer = Buffer::empty(area);
+        self.with_screen(|screen| {
+            let screen = Screen { snapshot, popup: Popup::None, message: None, ..*screen };
+            view::draw(&screen, area, &mut buffer);
+        });
+        frame::svg(&buffer)
     }
 
     fn report_news(&mut self) -> Effect {
@@ -129,6 +159,7 @@ impl App {
             self.state.running = self.state.report.activity == Activity::Running;
             self.state.has_target &= self.state.running;
             self.state.settings = self.state.report.settings;
+            self.state.look_at_sought();
         }
         if let Some((count, said)) = &self.state.report.said
             && before.said.is_none_or(|(before, _)| before < *count)
@@ -156,7 +187,6 @@ impl App {
 fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
     let message = state.message();
     let snapshot = &state.report.snapshot;
-    let trial = state.view_settings.card.and_then(|card| snapshot.at_trial(card.probe?));
     let hints = hints(&state.keymap, state.place());
     let (help, hints) = (pairs(&state.help), pairs(&hints));
     let entries: Vec<(&str, &str)> = match &state.open {
@@ -168,15 +198,26 @@ fn with_screen<T>(state: &State, show: impl FnOnce(&Screen) -> T) -> T {
         _ => String::new(),
     };
     show(&Screen {
-        snapshot: trial.as_ref().unwrap_or(snapshot),
+        snapshot: state.trial.as_ref().map_or(snapshot, |trial| &trial.shown),
         pace: pace(&state.report),
         ticks: &state.report.ticks,
         kept: state.report.kept,
+        recorded: state.report.recorded,
+        trail: &state.report.trail,
+        ahead: state.report.ahead.as_deref(),
+        log: Some(&state.report.log),
         comparison: state.comparison.as_ref().map(Comparison::shown),
         view_settings: &state.view_settings,
         popup: match &state.open {
             Open::Nothing => Popup::None,
             Open::Prompt(line) => Popup::Prompt { text: line.text(), cursor: line.cursor(), offers: &offers },
+            Open::Events(list) => Popup::Events(EventsView {
+                log: &state.report.log,
+                filter: list.filter(),
+                typed: list.typed(),
+                wrong: list.wrong(),
+                cursor: list.cursor(),
+            }),
             Open::Help { scroll } => Popup::Help { rows: &help, scroll: *scroll },
             Open::Scenes(list) => Popup::Scenes {
                 filter: list.filter(),

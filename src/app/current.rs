@@ -4,6 +4,7 @@ use std::{ffi::OsStr, path::PathBuf, sync::Arc};
 
 use crate::{
     printable,
+    recording::Recording,
     scene::{Opened, Scene, Settings},
     snapshot::Stage,
     worker::Job,
@@ -19,13 +20,15 @@ pub(super) struct Current {
     pub(super) scene: Arc<Scene>,
     /// What its snapshots show as constant.
     pub(super) stage: Arc<Stage>,
+    /// The recording that it is of, if it is.
+    pub(super) recording: Option<Arc<Recording>>,
 }
 
 impl Current {
     pub(super) fn of(opened: Opened) -> Current {
         let Opened { key, path, scene } = opened;
         let stage = Arc::new(Stage::of(&key, &scene));
-        Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene), stage }
+        Current { name: name_of(&key, path.as_ref()), path, scene: Arc::new(scene), stage, recording: None }
     }
 
     /// What [`crate::scene::open`] takes to open this scene again.
@@ -34,7 +37,8 @@ impl Current {
     }
 
     pub(super) fn job(&self, settings: Settings) -> Job {
-        Job { stage: Arc::clone(&self.stage), scene: Arc::clone(&self.scene), settings }
+        let recording = self.recording.clone();
+        Job { stage: Arc::clone(&self.stage), scene: Arc::clone(&self.scene), settings, recording }
     }
 }
 

@@ -18,6 +18,8 @@ pub(super) enum Place {
     List,
     /// The help.
     Help,
+    /// The list of all that has happened.
+    Events,
 }
 
 /// (key, a word), the most needed first.
@@ -26,6 +28,14 @@ pub(super) fn hints(keymap: &Keymap, place: Place) -> Vec<(String, &'static str)
         Place::Run => return keymap.hints(),
         Place::List => return plain(&[("j k", "move"), ("/", "filter"), ("Enter", "open"), ("Esc", "close")]),
         Place::Help => return plain(&[("j k", "scroll"), ("Esc", "close")]),
+        Place::Events => {
+            return plain(&[
+                ("Up Down", "move"),
+                ("Enter", "go there"),
+                ("3  wall 0  rest", "narrow"),
+                ("Esc", "close"),
+            ]);
+        }
         Place::Past => &[
             (Action::TogglePause, "go on here"),
             (Action::Step, "on"),

@@ -1,7 +1,10 @@
 //! What the application starts with, what reaches it, and what it asks for in turn.
 
+use std::path::PathBuf;
+
 use super::{keymap::Keymap, keys::Key, mouse::Mouse};
 use crate::{
+    recording::Recording,
     scene::{Opened, Settings},
     view::{Colors, Inks, Marker},
 };
@@ -23,6 +26,10 @@ pub struct Setup {
     pub inks: Inks,
     /// Which key does what.
     pub keymap: Keymap,
+    /// The recording that the scene is of; its settings are those to solve it with.
+    pub recording: Option<Recording>,
+    /// Where files are written.
+    pub folder: PathBuf,
 }
 
 /// What reaches the application from outside.

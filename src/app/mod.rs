@@ -13,9 +13,11 @@
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
 //! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
+//! | `event_list`, `seek` | the list of all that has happened; what is looked at where the run was sent |
 //! | `hints` | the keys that are useful where one is |
 //! | `line` | the `:` line while it is typed |
 //! | `until`, `said` | what a run goes on until; what the worker has to say, in words |
+//! | `take_away`, `files` | the picture and the state as files, and files that replace none |
 //! | `mouse`, `pointer` | the mouse, and what it does |
 //! | `comparison` | the exact run beside the one shown |
 
@@ -24,6 +26,8 @@ mod action;
 mod application;
 mod comparison;
 mod current;
+mod event_list;
+mod files;
 mod hints;
 mod input;
 mod key_name;
@@ -38,7 +42,9 @@ mod pointer;
 mod prompt;
 mod said;
 mod scene_list;
+mod seek;
 mod state;
+mod take_away;
 mod until;
 mod view_settings;
 

@@ -21,6 +21,9 @@ const AT_ONCE: Duration = Duration::from_millis(30);
 impl State {
     /// Reads the scene's file again; if it no longer loads, the old run goes on.
     pub(super) fn reload(&mut self) {
+        if self.current.recording.is_some() {
+            return self.say("This is a recording: there is no scene's file to reload.");
+        }
         if self.current.path.is_none() {
             return self.say(format!("{} is built in: there is no file to reload.", self.current.name));
         }

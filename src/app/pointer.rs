@@ -9,7 +9,7 @@ use super::{
     state::{Open, State},
     view_settings,
 };
-use crate::view::{self, Aim, CardView, Screen, Target};
+use crate::view::{self, Aim, Screen, Target};
 
 impl State {
     /// Turns the mouse on or off.
@@ -97,9 +97,7 @@ impl State {
             Some(Target::Contact(index)) => {
                 let contact = self.report.snapshot.contacts[index];
                 self.take(contact.a);
-                let order = view::order(&self.report.snapshot, self.view_settings.selected);
-                let cursor = order.iter().position(|&other| other == index).unwrap_or(0);
-                self.view_settings.card = Some(CardView { cursor, ..CardView::default() });
+                self.view_settings.card = Some(self.card_of(index));
             }
         }
         Effect::DrawNow

@@ -1,6 +1,7 @@
 //! The `:` line: exact values, and what to run until.
 
 use super::until::{self, Named};
+use super::view_settings::NAMED;
 use crate::{scene::Method, worker::Stop};
 
 /// What was asked for on the `:` line; every value is already within its rule.
@@ -20,6 +21,8 @@ pub(super) enum Order {
     Method(Method),
     /// Open this scene.
     Scene(String),
+    /// Show, or hide, overlays of these names.
+    Show(String, bool),
     /// Select this sphere, or none.
     Select(Option<usize>),
     /// Say the time and the hash of the state shown, as the closing line of `carom run` does.
@@ -56,7 +59,7 @@ const WORDS: &[Word] = &[
 ];
 
 /// The words that take something else than a number; the first takes nothing.
-const OTHERS: [&str; 5] = ["hash", "until", "method", "scene", "select"];
+const OTHERS: [&str; 7] = ["hash", "until", "method", "scene", "select", "show", "hide"];
 
 /// What can be named on the line.
 #[derive(Debug, Clone, Copy)]
@@ -91,6 +94,7 @@ pub(super) fn read(text: &str, context: &Context) -> Result<Option<Order>, Strin
         "method" => return method(value).map(Some),
         "scene" if value.is_empty() => return Err(":scene needs a name or a path, as in :scene paper-2.".into()),
         "scene" => return Ok(Some(Order::Scene(value.into()))),
+        "show" | "hide" => return Ok(Some(Order::Show(value.into(), name == "show"))),
         "select" => return select(value, context.spheres).map(Some),
         _ => {}
     }
@@ -144,6 +148,7 @@ pub(super) fn offers(text: &str, context: &Context) -> Vec<String> {
         ["method"] => Method::ALL.iter().map(|method| method.name()).collect(),
         ["scene"] => context.scenes.iter().map(String::as_str).collect(),
         ["select"] => vec!["none"],
+        ["show" | "hide", ..] => NAMED.iter().map(|(name, _)| *name).chain(["all"]).collect(),
         _ => Vec::new(),
     };
     allowed.into_iter().filter(|offer| offer.starts_with(word) && *offer != word).map(str::to_owned).collect()

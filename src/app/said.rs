@@ -2,7 +2,8 @@
 
 use crate::{
     format::{number, rounded, significant, thousands},
-    snapshot::{Class, Contact, Kind},
+    recording::Suspect,
+    snapshot::{Class, Contact, Kind, Logged},
     worker::{Bodies, Met, Said, Stop},
 };
 
@@ -29,13 +30,40 @@ pub(super) fn sentence(said: &Said, duration: f64) -> String {
         Said::Oldest { t } => format!("Nothing before t = {} s is kept; r starts again.", significant(*t, 5)),
         Said::Newest => "This is the newest frame.".into(),
         Said::NoEarlierImpact => "There is no collision before this one.".into(),
+        Said::Recording { .. } | Said::NotRecordable | Said::RecordingInThePast => begun(said),
+        Said::RecordingLost => "The recording is given up: the run has gone back to before its beginning.".into(),
+        Said::RecordingFull { frames } => format!("The recording is full: it has {} frames.", thousands(*frames)),
+        Said::Differs { frame, t, suspect } => {
+            let what = match suspect {
+                Suspect::Sphere(index) => format!("sphere {index} is not as recorded"),
+                Suspect::Time => "its time is not as recorded".into(),
+                Suspect::Several => "more than one sphere is not as recorded, or the file is damaged there".into(),
+            };
+            format!("Frame {} differs, at t = {} s: {what}.", thousands(*frame), significant(*t, 5))
+        }
+        Said::RecordingEnds { frame, same } => {
+            let all = if *same { "all of it as recorded" } else { "not all of it as recorded" };
+            format!("The recording ends here, with frame {}: {all}.", thousands(*frame))
+        }
+    }
+}
+
+/// Whether a recording has begun.
+fn begun(said: &Said) -> String {
+    match said {
+        Said::Recording { t } => format!("Recording from t = {} s on.", significant(*t, 5)),
+        Said::RecordingInThePast => {
+            "A recording begins at the newest frame, or where the run goes on from here.".into()
+        }
+        _ => "No recording begins here: the tolerance of swept was changed, so that it would not go on bit for bit."
+            .into(),
     }
 }
 
 /// What came, after a colon.
 fn came(stop: &Stop, met: &Met) -> String {
     match met {
-        Met::Event(contact) => event(contact),
+        Met::Event(contact) => event(contact.kind, contact.class, contact.a, contact.b),
         Met::Exit(i) => format!("sphere {i} leaves the box around the walls"),
         Met::Time => "it is time".into(),
         Met::Speed(i, speed) => format!("sphere {i} has {} m/s, a {}", rounded(*speed), noun(stop)),
@@ -44,8 +72,13 @@ fn came(stop: &Stop, met: &Met) -> String {
     }
 }
 
-fn event(contact: &Contact) -> String {
-    let Contact { kind, a, b, class, .. } = contact;
+/// A sentence of an event in the list of them.
+pub(super) fn of_event(logged: &Logged) -> String {
+    let Logged { kind, class, a, b, .. } = *logged;
+    format!("t = {} s: {}.", number(logged.time), event(kind, class, a as usize, b as usize))
+}
+
+fn event(kind: Kind, class: Class, a: usize, b: usize) -> String {
     match (kind, class) {
         (Kind::Wall, Class::Rest) => format!("sphere {a} comes to rest on wall {b}"),
         (Kind::Wall, Class::Release) => format!("sphere {a} no longer rests on wall {b}"),

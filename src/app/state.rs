@@ -1,6 +1,9 @@
 //! What the application holds, and the steps that keys and news are made of.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::PathBuf,
+    sync::{Arc, mpsc::Receiver},
+};
 
 use ratatui::layout::Rect;
 
@@ -8,6 +11,7 @@ use super::{
     action::Action,
     comparison::Comparison,
     current::Current,
+    event_list::EventList,
     hints::Place,
     input::Setup,
     keymap::Keymap,
@@ -16,15 +20,16 @@ use super::{
     loading::Loading,
     mouse::Pointer,
     prompt::Context,
+    said,
     scene_list::{self, SceneList},
     view_settings,
 };
 use crate::{
     printable,
     scene::{self, Settings},
-    snapshot::Class,
-    view::ViewSettings,
-    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, Worker},
+    snapshot::{Class, Logged, Snapshot},
+    view::{self, ViewSettings},
+    worker::{Activity, Command, Ending, Errands, Notify, Report, Stop, TakenAway, Worker},
 };
 
 /// What is open over the views.
@@ -33,7 +38,25 @@ pub(super) enum Open {
     Nothing,
     Help { scroll: usize },
     Scenes(SceneList),
+    Events(EventList),
     Prompt(Line),
+}
+
+/// What a run is on its way to, to be looked at there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sought {
+    /// An event of the list: its card is opened.
+    Event(Logged),
+    /// Whatever impact comes: what collides is selected.
+    Impact,
+}
+
+/// A trial step of a frame's search, to be drawn as often as need be.
+pub(super) struct Trial {
+    /// The frame, and the number of the trial step.
+    of: (Arc<Snapshot>, usize),
+    /// The frame with its spheres where they were tried.
+    pub(super) shown: Snapshot,
 }
 
 /// What the application holds.
@@ -49,6 +72,8 @@ pub(super) struct State {
     pub(super) running: bool,
     /// Whether the run goes to a collision or a time, where it stops; Esc stops it before.
     pub(super) has_target: bool,
+    /// What the run is on its way to, to be looked at there.
+    pub(super) sought: Option<Sought>,
     /// What was waited for last.
     pub(super) until: Option<Stop>,
     /// The exact run beside it, if it was asked for.
@@ -74,6 +99,14 @@ pub(super) struct State {
     /// Size of the last picture.
     pub(super) area: Rect,
     pub(super) help: Vec<(String, &'static str)>,
+    /// Where files are written.
+    pub(super) folder: PathBuf,
+    /// What was asked for around the frame shown: trails, and what comes next of a sphere.
+    pub(super) around: (bool, Option<usize>),
+    /// The trial step in the views, if one is.
+    pub(super) trial: Option<Trial>,
+    /// What is to be written, once the worker has handed it over.
+    pub(super) taken: Option<Receiver<TakenAway>>,
 }
 
 impl State {
@@ -82,7 +115,8 @@ impl State {
     /// # Errors
     /// If the system has no thread for the worker.
     pub(super) fn begin(setup: Setup, notify: Notify) -> std::io::Result<State> {
-        let current = Current::of(setup.opened);
+        let recording = setup.recording.map(Arc::new);
+        let current = Current { recording, ..Current::of(setup.opened) };
         let worker = Worker::start(current.job(setup.settings), 1.0, Arc::clone(&notify))?;
         let report = worker.take();
         let about = current.scene.about.clone();
@@ -99,6 +133,7 @@ impl State {
             speed: 1.0,
             running: false,
             has_target: false,
+            sought: None,
             until: None,
             comparison: None,
             cost_told: 0,
@@ -114,9 +149,16 @@ impl State {
             area: Rect::default(),
             help: setup.keymap.help_rows(),
             keymap: setup.keymap,
+            folder: setup.folder,
+            trial: None,
+            around: (false, None),
+            taken: None,
             pointer: Pointer::default(),
         };
         state.warn();
+        if let Some((_, said)) = state.report.said {
+            state.tell(said::sentence(&said, state.current.scene.duration));
+        }
         if !setup.paused {
             state.run(true);
         }
@@ -136,6 +178,7 @@ impl State {
         match (&self.open, self.report.activity) {
             (Open::Scenes(_), _) => Place::List,
             (Open::Help { .. }, _) => Place::Help,
+            (Open::Events(_), _) => Place::Events,
             _ if self.report.kept.is_past => Place::Past,
             (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
             _ => Place::Run,
@@ -147,6 +190,31 @@ impl State {
         let stage = &self.current.stage;
         let (spheres, walls) = (stage.radii.len(), stage.walls.len());
         Context { spheres, walls, selected: self.view_settings.selected, scenes }
+    }
+
+    /// Asks for what is shown around the frame: where spheres were, what comes next of the selected one.
+    pub(super) fn look_around(&mut self) {
+        let settings = &self.view_settings;
+        let wanted = settings.overlays.predicted || view::inspector_is_shown(settings, self.area);
+        let around = (settings.overlays.path, settings.selected.filter(|_| wanted));
+        if around != self.around {
+            self.around = around;
+            self.worker.send(Command::Around { path: around.0, sphere: around.1 });
+        }
+    }
+
+    /// Has the trial step that the card asks for ready to be drawn.
+    pub(super) fn show_trial(&mut self) {
+        let snapshot = &self.report.snapshot;
+        let Some(probe) = self.view_settings.card.and_then(|card| card.probe) else {
+            self.trial = None;
+            return;
+        };
+        let is = |trial: &Trial| Arc::ptr_eq(&trial.of.0, snapshot) && trial.of.1 == probe;
+        if !self.trial.as_ref().is_some_and(is) {
+            let shown = snapshot.at_trial(probe);
+            self.trial = shown.map(|shown| Trial { of: (Arc::clone(snapshot), probe), shown });
+        }
     }
 
     /// Answers the last key, in place of the key hints, until the next key.
@@ -168,12 +236,14 @@ impl State {
     /// Lets the run go on and on, or pauses it.
     pub(super) fn run(&mut self, on: bool) {
         (self.running, self.has_target) = (on, false);
+        self.sought = None;
         self.worker.send(Command::Run(on));
     }
 
     /// Runs to where a command leads, not on and on.
     pub(super) fn head_for(&mut self, command: Command, on: bool) {
         (self.running, self.has_target) = (on, on);
+        self.sought = None;
         self.worker.send(command);
     }
 
@@ -198,6 +268,7 @@ impl State {
     /// Puts the worker on another scene; what is drawn of it, and how, stays as chosen.
     pub(super) fn show(&mut self, current: Current, settings: Settings) {
         let running = self.running;
+        self.end_recording();
         self.current = current;
         self.settings = settings;
         self.worker.send(Command::Load(self.current.job(settings)));

@@ -28,15 +28,58 @@ const OVERLAYS: [(Overlays, &str); 6] = [
 ];
 
 const fn overlays(contacts: bool, normals: bool, velocities: bool, ids: bool) -> Overlays {
-    Overlays { contacts, normals, velocities, ids }
+    Overlays { contacts, normals, velocities, ids, impulses: false, forces: false, path: false, predicted: false }
 }
 
-/// Goes to the next set of overlays and says which.
+/// Goes to the next set of overlays and says which; those that are shown by name only stay as they are.
 pub(super) fn next_overlays(settings: &mut ViewSettings) -> String {
-    let at = OVERLAYS.iter().position(|(set, _)| *set == settings.overlays).unwrap_or(0);
+    let now = settings.overlays;
+    let is = |set: &Overlays| {
+        (set.contacts, set.normals, set.velocities, set.ids) == (now.contacts, now.normals, now.velocities, now.ids)
+    };
+    let at = OVERLAYS.iter().position(|(set, _)| is(set)).unwrap_or(0);
     let (set, name) = OVERLAYS[(at + 1) % OVERLAYS.len()];
-    settings.overlays = set;
+    let Overlays { impulses, forces, path, predicted, .. } = now;
+    settings.overlays = Overlays { impulses, forces, path, predicted, ..set };
     format!("Overlays: {name}.")
+}
+
+/// An overlay by its name.
+type Named = (&'static str, fn(&mut Overlays) -> &mut bool);
+
+/// All of them.
+pub(super) const NAMED: [Named; 8] = [
+    ("contacts", |overlays| &mut overlays.contacts),
+    ("normals", |overlays| &mut overlays.normals),
+    ("velocities", |overlays| &mut overlays.velocities),
+    ("ids", |overlays| &mut overlays.ids),
+    ("impulses", |overlays| &mut overlays.impulses),
+    ("forces", |overlays| &mut overlays.forces),
+    ("path", |overlays| &mut overlays.path),
+    ("predicted", |overlays| &mut overlays.predicted),
+];
+
+/// Shows or hides the overlays of these names, or all; says which are shown then.
+///
+/// # Errors
+/// A sentence that names the first word that is none, or what there is.
+pub(super) fn show(settings: &mut ViewSettings, words: &str, on: bool) -> Result<String, String> {
+    let (names, order): (Vec<&str>, _) = (NAMED.map(|(name, _)| name).to_vec(), if on { "show" } else { "hide" });
+    let words: Vec<&str> = words.split_whitespace().collect();
+    if let Some(wrong) = words.iter().find(|word| **word != "all" && !names.contains(word)) {
+        return Err(format!("{wrong} is not allowed: :{order} takes {}, or all.", names.join(", ")));
+    }
+    if words.is_empty() {
+        return Err(format!(":{order} needs what to {order}: {}, or all.", names.join(", ")));
+    }
+    for (name, field) in NAMED {
+        if words.contains(&name) || words.contains(&"all") {
+            *field(&mut settings.overlays) = on;
+        }
+    }
+    let shown = NAMED.iter().filter(|(_, field)| *field(&mut settings.overlays)).map(|(name, _)| *name);
+    let shown: Vec<&str> = shown.collect();
+    Ok(format!("Shown: {}.", if shown.is_empty() { "nothing but the spheres".into() } else { shown.join(", ") }))
 }
 
 /// Both, side, top, and round again.

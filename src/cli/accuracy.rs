@@ -21,6 +21,7 @@ pub(super) fn settings(
 ) -> Result<(Settings, Option<String>), Failure> {
     let plain = solver.over(scene.solver);
     let Some((error, methods)) = solver.accuracy() else { return Ok((plain, None)) };
+    from_its_start(scene, "--accuracy")?;
     let waiting = Waiting::begin(error);
     let undisturbed = || signals.map_or(Ok(()), Signals::check);
     let found = choose(scene, (error, until), &methods, plain, &|| undisturbed().is_ok());
@@ -29,6 +30,21 @@ pub(super) fn settings(
         Ok(choice) => Ok((choice.settings, Some(choice.sentence()))),
         Err(Miss::Nothing(sentence)) => Err(Failure::Failed(sentence)),
         Err(Miss::Interrupted) => Err(undisturbed().err().unwrap_or(Failure::Told)),
+    }
+}
+
+/// Refuses a scene that goes on from another run where errors are measured: they are counted from a start.
+///
+/// # Errors
+/// A sentence that names `what` is asked for.
+pub(super) fn from_its_start(scene: &Scene, what: &str) -> Result<(), Failure> {
+    match &scene.resume {
+        Some(resume) => Err(Failure::Usage(format!(
+            "{what} counts errors from a scene's start, and this one goes on from t = {:?} s; give it the scene that was begun with, \
+             or one without `resume`",
+            resume.t
+        ))),
+        None => Ok(()),
     }
 }
 

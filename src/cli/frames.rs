@@ -3,7 +3,7 @@
 use super::failure::{Failure, note};
 use super::signals::Signals;
 use crate::physics::{Progress, Simulation, Until};
-use crate::recording::Recording;
+use crate::recording::{Change, Recording};
 use crate::scene;
 
 /// One frame further; false if the run cannot go on.
@@ -18,6 +18,31 @@ pub(super) fn next_frame(run: &mut Simulation, signals: &Signals) -> Result<bool
                 return Ok(false);
             }
         }
+    }
+}
+
+/// One frame further in a recorded run, its changes made where they were; `left`: those that are still to be made. False if the run
+/// cannot go on.
+pub(super) fn next_recorded(run: &mut Simulation, left: &mut &[Change], signals: &Signals) -> Result<bool, Failure> {
+    let frame = run.tallies().frames;
+    let mut make = |run: &mut Simulation, stalled: bool| match left.split_first() {
+        Some((change, rest)) if change.frame <= frame && change.stalled <= stalled => {
+            run.set_settings(change.settings);
+            *left = rest;
+            true
+        }
+        _ => false,
+    };
+    while make(run, false) {}
+    loop {
+        // also one at whose end it cannot go on
+        if next_frame(run, signals)? || run.tallies().frames > frame {
+            return Ok(true);
+        }
+        if !make(run, true) {
+            return Ok(false);
+        }
+        while make(run, false) {}
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::{Failure, note};
 use super::output::Output;
@@ -69,6 +70,7 @@ fn ladder(arguments: &Measure) -> Ladder {
 fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
     let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
+    opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
     let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
     refuse_shared(&outputs(arguments), &inputs)?;
     let ladder = ladder(arguments);

@@ -1,31 +1,73 @@
 //! `carom [SCENE]`: the TUI, or the run told in lines.
 
 use std::cell::RefCell;
+use std::ffi::OsStr;
 use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
 
 use super::accuracy;
 use super::arguments::{Color, Play};
 use super::failure::{Failure, note};
 use super::lines;
 use super::output::Output;
+use super::replay;
 use super::signals::Signals;
 use super::talk::{self, Ears, Event};
 use crate::app::Setup;
 use crate::config::{self, Config};
+use crate::recording::Recording;
 use crate::scene::{self, Opened, Settings};
 use crate::terminal::{self, Options, Outcome};
 use crate::text_mode::{self, Ending};
 use crate::view::{Colors, Marker};
 
 pub(super) fn play(arguments: &Play) -> Result<(), Failure> {
-    let text = arguments.text || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    let text = is_text(arguments);
     if !text && !io::stdout().is_terminal() {
         return Err(Failure::Usage(terminal::Error::NoTerminal.to_string())); // before a scene is read for nothing
     }
     let config = config::open(arguments.config.as_deref()).map_err(|error| Failure::Usage(error.to_string()))?;
     let name = arguments.scene.as_deref().unwrap_or(&config.scene);
-    let opened = scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
+    let (opened, recording) = open(name)?;
+    if let Some(recording) = recording {
+        return replay(arguments, config, opened, recording);
+    }
     if text { tell(arguments, config, opened) } else { show(arguments, config, opened) }
+}
+
+/// A scene, or a recording and the scene that it is of.
+fn open(name: &OsStr) -> Result<(Opened, Option<Recording>), Failure> {
+    if !name.as_encoded_bytes().ends_with(b".carom") {
+        return Ok((scene::open(name).map_err(|error| Failure::Failed(error.to_string()))?, None));
+    }
+    let recording = replay::read(Path::new(name))?;
+    let scene = scene::parse(&recording.scene, &recording.key).map_err(|error| Failure::Failed(error.to_string()))?;
+    Ok((Opened { key: recording.key.clone(), path: None, scene }, Some(recording)))
+}
+
+/// Shows a recording: its run, with its own settings and their changes, compared frame by frame.
+fn replay(arguments: &Play, config: Config, opened: Opened, recording: Recording) -> Result<(), Failure> {
+    let (settings, solver) = (recording.settings, &arguments.solver);
+    if solver.over(settings) != settings || solver.accuracy().is_some() {
+        return Err(Failure::Usage(
+            "a recording is solved with its own settings; leave --method, --dt, --tolerance and \
+                                   --accuracy out, or change them once it is open"
+                .into(),
+        ));
+    }
+    if !is_text(arguments) {
+        return run_screen(arguments, config, (opened, settings, Some(recording)), None);
+    }
+    if !arguments.paused {
+        return Err(Failure::Usage("a recording is told in lines with --paused only".into()));
+    }
+    let signals = Signals::watch()?;
+    let setup = Setup { recording: Some(recording), ..setup(config, opened, settings) };
+    talk::talk(setup, (0.0, None), &Ears::open()?, &signals)
+}
+
+fn is_text(arguments: &Play) -> bool {
+    arguments.text || std::env::var_os("TERM").is_some_and(|term| term == "dumb")
 }
 
 fn tell(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure> {
@@ -65,14 +107,34 @@ fn tell(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure>
 /// The application that a conversation is led with.
 fn setup(config: Config, opened: Opened, settings: Settings) -> Setup {
     let (marker, colors, inks) = (Marker::Ascii, Colors::Never, config.inks);
-    Setup { opened, settings, paused: true, marker, colors, inks, keymap: config.keymap }
+    Setup {
+        opened,
+        settings,
+        paused: true,
+        marker,
+        colors,
+        inks,
+        keymap: config.keymap,
+        recording: None,
+        folder: PathBuf::from("."),
+    }
 }
 
 fn show(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure> {
     let (settings, message) = accuracy::settings(&arguments.solver, &opened.scene, opened.scene.duration, None)?;
+    run_screen(arguments, config, (opened, settings, None), message)
+}
+
+fn run_screen(
+    arguments: &Play,
+    config: Config,
+    (opened, settings, recording): (Opened, Settings, Option<Recording>),
+    message: Option<String>,
+) -> Result<(), Failure> {
     let options = Options {
         opened,
         settings,
+        recording,
         message,
         paused: arguments.paused,
         marker: arguments.display.marker.map(Into::into).or(config.marker),

@@ -43,7 +43,7 @@ pub(super) fn record(arguments: &Record, signals: &Signals) -> Result<(), Failur
         Kind::Recording => {
             let frames = frames(&mut Simulation::new(&opened.scene, settings), until, signals)?;
             note(&format!("{}: {} frames", target.name(), frames.len() - 1));
-            let recording = Recording { key: opened.key, scene: text, settings, frames };
+            let recording = Recording { key: opened.key, scene: text, settings, changes: Vec::new(), frames };
             out.write_all(&recording.to_bytes())?;
         }
         Kind::Film => {

@@ -28,6 +28,9 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     let until = arguments.until.unwrap_or(opened.scene.duration);
     refuse_too_many(arguments, &opened.scene, until)?;
     opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
+    if arguments.certify {
+        accuracy::from_its_start(&opened.scene, "--certify")?;
+    }
     let certified = arguments.certify.then(|| Certified::of(&arguments.solver)).transpose()?;
     let (settings, said) = accuracy::settings(&arguments.solver, &opened.scene, until, Some(signals))?;
     said.iter().for_each(|said| note(said));
@@ -88,7 +91,8 @@ struct Recorder<'a> {
 impl Recorder<'_> {
     /// Runs to the end, or to where the run cannot go on.
     fn record(&mut self, every: Option<f64>) -> Result<Option<Stall>, Failure> {
-        for time in sample_times(self.until, every) {
+        let begun = self.simulation.time(); // not 0 in a scene that goes on from another run
+        for time in sample_times(self.until, every).skip_while(|time| *time < begun) {
             self.signals.check()?;
             if let Some(stall) = self.reach(time)? {
                 self.write_states(&self.simulation.state())?;

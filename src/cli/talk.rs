@@ -15,13 +15,16 @@ use crate::app::{Action, App, Code, Effect, Input, Key, Keymap, Setup};
 use crate::explain;
 use crate::format;
 use crate::printable;
-use crate::snapshot::Class;
+use crate::snapshot::{Class, EventFilter};
 
 /// How often it is asked whether a signal has come.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// Most cards that are told unasked.
 const CARDS: usize = 5;
+
+/// Most events of the log that are told.
+const LOGGED: usize = 100;
 
 /// What happens.
 pub(super) enum Event {
@@ -60,7 +63,7 @@ struct Talk {
     told: Option<f64>,
     /// Whether something was asked for that is to be told when it is done.
     asked: bool,
-    /// What was said last in answer to the last line.
+    /// What was said last in answer to the last key.
     said: Option<String>,
 }
 
@@ -109,7 +112,8 @@ impl Talk {
         writeln!(self.out, "{}, {}.", format::counted(spheres, "sphere"), format::counted(walls, "wall"))?;
         writeln!(
             self.out,
-            "Each line is keys, or an order after a colon. An empty line steps, or pauses a run; card tells the contacts; \
+            "Each line is keys, or an order after a colon. An empty line steps, or pauses a run; card tells the contacts, \
+             log all that has happened; \
              {help} lists the keys; {quit} quits."
         )?;
         Ok(())
@@ -130,7 +134,6 @@ impl Talk {
                 None => return Ok(false),
                 Some(None) => return Ok(true),
                 Some(Some(line)) => {
-                    self.said = None;
                     if self.obey(&line)? {
                         return Ok(true);
                     }
@@ -146,6 +149,7 @@ impl Talk {
         let word = line.trim();
         match word.split_once(' ').unwrap_or((word, "")) {
             ("card" | "cards", number) => self.card(number)?,
+            ("log", filter) => self.log(filter)?,
             _ if line.is_empty() && self.app.runs_freely() => return self.action(Action::TogglePause),
             _ if line.is_empty() => return self.action(Action::Step),
             _ if word.starts_with(':') => self.type_in(word)?,
@@ -173,11 +177,16 @@ impl Talk {
     fn press(&mut self, key: Key) -> Result<bool, Failure> {
         match self.keymap.action(key) {
             Some(Action::Help) => self.help()?,
-            Some(Action::Quit) => return Ok(true),
+            Some(Action::Quit) => {
+                self.heed(Input::Key(key))?; // a recording under way is written
+                self.say()?;
+                return Ok(true);
+            }
             Some(Action::Prompt | Action::Until) => {
                 writeln!(self.out, "An order is a line of its own, such as :goto 3.25, or :until rest.")?;
             }
             Some(Action::Inspector | Action::Card) => self.card("")?,
+            Some(Action::Events) => self.log("")?,
             Some(
                 Action::Scenes
                 | Action::Mouse
@@ -214,6 +223,9 @@ impl Talk {
     }
 
     fn heed(&mut self, input: Input) -> Result<(), Failure> {
+        if matches!(input, Input::Key(_)) {
+            self.said = None;
+        }
         match self.app.handle(input) {
             Effect::Fail(said) => Err(Failure::Failed(format!("carom has made a mistake and cannot go on: {said}"))),
             _ => Ok(()),
@@ -268,6 +280,31 @@ impl Talk {
                 }
             }
             (_, count) => writeln!(self.out, "{number} is not allowed: there are contacts 0 to {}.", count - 1)?,
+        }
+        Ok(self.out.flush()?)
+    }
+
+    /// What has happened so far, as far as the filter lets it through, the newest last.
+    fn log(&mut self, filter: &str) -> Result<(), Failure> {
+        let log = Arc::clone(&self.app.report().log);
+        match EventFilter::read(filter) {
+            Ok(filter) => {
+                let wanted = || log.iter().filter(|(_, event)| filter.passes(event));
+                let count = wanted().count();
+                if log.dropped() > 0 {
+                    writeln!(self.out, "The first {} events are not kept.", log.dropped())?;
+                }
+                if count > LOGGED {
+                    writeln!(self.out, "{} before these.", format::counted((count - LOGGED) as u64, "event"))?;
+                }
+                for (number, event) in wanted().skip(count.saturating_sub(LOGGED)) {
+                    writeln!(self.out, "{number}. {}", explain::event(event))?;
+                }
+                if count == 0 {
+                    writeln!(self.out, "Nothing of this has happened.")?;
+                }
+            }
+            Err(said) => writeln!(self.out, "{}", printable::escaped(&said))?,
         }
         Ok(self.out.flush()?)
     }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::approach;
 use super::line::Line;
+use super::support;
 use crate::format::{digits, number, setting, significant};
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
 
@@ -61,11 +62,7 @@ impl Of<'_> {
 
     /// What an impulse along the normal changes v_n by is this times as much, kg: m, or m₁ m₂ / (m₁ + m₂).
     fn effective_mass(&self) -> f64 {
-        let Contact { kind, a, b, .. } = *self.contact;
-        match kind {
-            Kind::Wall => self.mass(a),
-            Kind::Pair => 1.0 / (1.0 / self.mass(a) + 1.0 / self.mass(b)),
-        }
+        support::effective_mass(self.snapshot, self.contact)
     }
 
     fn restitution(&self) -> f64 {

@@ -7,7 +7,8 @@
 //! |---|---|
 //! | `card` | one contact: class and rule, speeds, impulse, energy, how deep, why it rests |
 //! | `approach` | how its time follows from a polynomial |
-//! | `sentence` | a contact in one line |
+//! | `sentence` | a contact, or an event of the list, in one line |
+//! | `support` | the force that holds a contact at rest |
 //! | `line` | a line of text and what it is about |
 //!
 //! [`Snapshot`]: crate::snapshot::Snapshot
@@ -16,7 +17,9 @@ mod approach;
 mod card;
 mod line;
 mod sentence;
+mod support;
 
 pub use card::{Card, card};
 pub use line::Line;
-pub use sentence::sentence;
+pub use sentence::{event, sentence};
+pub use support::support_force;

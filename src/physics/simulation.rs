@@ -95,8 +95,16 @@ impl Simulation {
     /// what else there is to do. No bit of a result depends on it.
     pub const SLICE: u64 = 20_000;
 
-    /// A simulation of `scene` at t = 0, the contacts found there already handled.
+    /// A simulation of `scene` at t = 0, the contacts found there already handled; of a scene that goes on from another run,
+    /// at the time of that: by its settings bit for bit, by others as if they were changed there.
     pub fn new(scene: &Scene, settings: Settings) -> Simulation {
+        if let Some(resume) = &scene.resume {
+            let mut run = Simulation::resumed(scene, scene.solver, resume.t, &resume.transient);
+            if settings != scene.solver {
+                run.set_settings(settings);
+            }
+            return run;
+        }
         let model = Model::new(scene);
         let mut log = Log::default();
         let engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
@@ -113,7 +121,9 @@ impl Simulation {
         model.initial.t = t;
         let mut log = Log::default();
         let mut engine = Engines::begin(&model, settings, model.initial.clone(), &mut log);
-        each!(&mut engine, engine => engine.continue_with(transient));
+        if is_of(transient, settings.method, &model) {
+            each!(&mut engine, engine => engine.continue_with(transient));
+        }
         let (initial_energy, stall) = (model.initial.energy(&model), model.initial.runaway(&model));
         let log = Log { contacts: log.contacts, resting: log.resting, ..Log::default() };
         Simulation { model: Arc::new(model), settings, engine, log, initial_energy, stall }
@@ -167,7 +177,8 @@ impl Simulation {
     }
 
     /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
-    /// in the next, N s by sphere. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
+    /// in the next, N s by sphere; then what its watchdog has counted, on which depends when it gives up frames that shrink
+    /// without end: since when, s, how many were cut short, and how long they should have taken at least, s. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
     /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
     /// then the continuation is the same to rounding only. `moreau`: as many rows as contacts held in the last frame:
     /// sphere, other sphere (or −1 − wall), impulse in N s.
@@ -306,6 +317,20 @@ impl Simulation {
     /// The state at the end of the last frame, without a copy where the method holds one.
     fn now(&self) -> Cow<'_, State> {
         each!(&self.engine, engine => engine.state(&self.model))
+    }
+}
+
+/// Whether this can be what a run of the model by this method said: what a file says may be anything.
+fn is_of(transient: &[DVec3], method: Method, model: &Model) -> bool {
+    let spheres = model.len() as f64;
+    let index = |value: f64, count: f64| value.fract() == 0.0 && (0.0..count).contains(&value);
+    match method {
+        Method::Paper => transient.len() == model.len() || transient.len() == model.len() + 1,
+        Method::Exact | Method::Swept => true, // they look themselves
+        Method::Moreau => transient.iter().all(|row| {
+            let wall = index(-1.0 - row.y, model.faces.len() as f64);
+            index(row.x, spheres) && (wall || index(row.y, spheres)) && row.z.is_finite()
+        }),
     }
 }
 

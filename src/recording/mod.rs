@@ -6,10 +6,13 @@
 //! | file | owns |
 //! |---|---|
 //! | `file` | what a recording holds, and how it is written and read |
+//! | `change` | a change of settings on the way |
 //! | `sums` | the two sums of a state, and which sphere differs where they differ |
 
+mod change;
 mod file;
 mod sums;
 
-pub use file::{BadRecording, Recording};
+pub use change::Change;
+pub use file::{BadRecording, LARGEST, Recording};
 pub use sums::{Sums, Suspect};

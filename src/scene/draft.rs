@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::error::{Error, Source};
 use super::number::Finite;
 use super::rules::{self, default_view};
-use super::validated::{Draft, Scene, Sphere, Wall};
+use super::validated::{Draft, Resume, Scene, Settings, Sphere, Wall};
 use super::values;
 
 /// What refusals call a scene that has no file.
@@ -23,6 +23,7 @@ impl Draft {
             solver: rules::settings(&Default::default()),
             duration: rules::DURATION,
             view: default_view(&walls, &spheres),
+            resume: None,
             walls,
             spheres,
         }
@@ -38,28 +39,50 @@ impl Draft {
 }
 
 impl Scene {
-    /// The scene after a change of it.
+    /// The scene after a change of it. One that goes on from a run begins anew there, at its time.
     ///
     /// # Errors
     /// The first rule that is broken then.
     pub fn changed(&self, change: impl FnOnce(&mut Draft)) -> Result<Scene, Error> {
-        let mut draft = Draft::clone(self);
+        let mut draft = self.begun_anew();
         change(&mut draft);
         draft.validated()
     }
 
     /// The scene with its spheres at these centres (m) with these velocities (m/s), by index, as a run has left them.
-    /// They may overlap, and be far away, as the spheres of a run may; every other rule is met.
+    /// They may overlap, and be far away, as the spheres of a run may; every other rule is met. A scene that goes on from a
+    /// run begins anew there, at its time.
     ///
     /// # Errors
     /// If a number is not finite.
     pub fn moved(&self, x: &[DVec3], v: &[DVec3]) -> Result<Scene, Error> {
-        let mut draft = Draft::clone(self);
+        let mut draft = self.begun_anew();
         for (sphere, (x, v)) in draft.spheres.iter_mut().zip(x.iter().zip(v)) {
             (sphere.x, sphere.v) = (*x, *v);
         }
         values::refuse_places::<Finite>(&draft.spheres, ORIGIN)?;
         Ok(Scene::sealed(draft))
+    }
+
+    /// The scene from which a run by these settings goes on where one has left the spheres, at these centres (m) with these
+    /// velocities (m/s).
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub fn going_on(&self, settings: Settings, resume: Resume, x: &[DVec3], v: &[DVec3]) -> Result<Scene, Error> {
+        let Scene(mut draft) = self.moved(x, v)?;
+        // past the scene's own end there is as much to come again
+        if draft.duration <= resume.t {
+            draft.duration += resume.t;
+        }
+        (draft.solver, draft.resume) = (settings, Some(resume));
+        Ok(Scene::sealed(draft))
+    }
+
+    /// A draft of the scene without what held only of the spheres where they are.
+    fn begun_anew(&self) -> Draft {
+        let resume = self.resume.as_ref().map(|resume| Resume { t: resume.t, transient: Vec::new() });
+        Draft { resume, ..Draft::clone(self) }
     }
 }
 

@@ -20,6 +20,7 @@ pub(super) struct SceneFile {
     pub(super) solver: SolverFile,
     pub(super) duration: Option<NotNegative>,
     pub(super) view: Option<BoxFile>,
+    pub(super) resume: Option<ResumeFile>,
     #[serde(default)]
     pub(super) walls: Vec<WallFile>,
     #[serde(default)]
@@ -44,6 +45,15 @@ pub(super) struct SolverFile {
     pub(super) method: Option<Method>,
     pub(super) dt: Option<Interval>,
     pub(super) tolerance: Option<NotNegative>,
+}
+
+/// Where a run goes on.
+#[derive(Debug, Deserialize)]
+#[serde(rename = "Resume", deny_unknown_fields)]
+pub(super) struct ResumeFile {
+    pub(super) t: NotNegative,
+    #[serde(default)]
+    pub(super) transient: Vec<Vector>,
 }
 
 /// A box, m.

@@ -31,6 +31,7 @@
 //! | `generate`, `gas` | what a room, a lattice and a gas expand to |
 //! | `size`, `effort` | what is too much: bodies, memory, comparisons |
 //! | `overlaps`, `near` | which bodies overlap at the start, found by a tree |
+//! | `write` | a scene as a text that holds it to the bit |
 //! | `warnings` | what is allowed but hardly meant |
 //! | `error`, `locate` | the refusal, and where in the text it points |
 
@@ -55,13 +56,15 @@ mod size;
 mod validated;
 mod values;
 mod warnings;
+mod write;
 
 pub use error::Error;
 pub use locate::Position;
 pub use open::{Opened, contents, open, open_with_text};
 pub use parse::parse;
-pub use validated::{Color, ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};
+pub use validated::{Color, ContactLaw, Draft, Method, Resume, Scene, Settings, Sphere, Wall};
 pub use warnings::{endless, warnings};
+pub use write::written;
 #[cfg(feature = "cli")]
 pub(crate) use {
     error::{Source, quote},

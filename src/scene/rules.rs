@@ -14,7 +14,7 @@ use super::locate::Step::{self, Field, Index};
 use super::number::{Amount, LARGEST, Positive, Rgb, SMALLEST};
 use super::overlaps::refuse_overlaps;
 use super::size::{refuse_too_large, refuse_too_many};
-use super::validated::{ContactLaw, Draft, Method, Scene, Settings, Sphere, Wall};
+use super::validated::{ContactLaw, Draft, Method, Resume, Scene, Settings, Sphere, Wall};
 use super::values::refuse_values;
 use crate::format::{number, rounded};
 use crate::geometry::{Bounds, Parallelogram};
@@ -33,7 +33,9 @@ pub(super) fn validated(file: SceneFile, source: Source) -> Result<Scene, Error>
     refuse_too_large(&file, source)?;
     let walls = walls(&file.walls, source)?;
     let spheres = spheres(&file.spheres, (&walls.list, &effort), source)?;
-    refuse_overlaps(&walls, &spheres, &effort, source)?;
+    if file.resume.is_none() {
+        refuse_overlaps(&walls, &spheres, &effort, source)?; // those of a run may overlap
+    }
     let view = match file.view {
         Some(view) => bounds(corners(view), &[Field("view")], source)?,
         None => default_view(&walls.list, &spheres.list),
@@ -46,6 +48,10 @@ pub(super) fn validated(file: SceneFile, source: Source) -> Result<Scene, Error>
         solver: settings(&file.solver),
         duration: file.duration.map_or(DURATION, |duration| duration.0),
         view,
+        resume: file.resume.map(|resume| Resume {
+            t: resume.t.0,
+            transient: resume.transient.into_iter().map(|vector| vector.0).collect(),
+        }),
         walls: walls.list,
         spheres: spheres.list,
     }))
@@ -61,7 +67,9 @@ pub(super) fn checked(mut draft: Draft, source: Source) -> Result<Scene, Error> 
     }
     let walls = Bodies::one_by_one(std::mem::take(&mut draft.walls));
     let spheres = Bodies::one_by_one(std::mem::take(&mut draft.spheres));
-    refuse_overlaps(&walls, &spheres, &Effort::whole(), source)?;
+    if draft.resume.is_none() {
+        refuse_overlaps(&walls, &spheres, &Effort::whole(), source)?;
+    }
     Ok(Scene::sealed(Draft { walls: walls.list, spheres: spheres.list, ..draft }))
 }
 

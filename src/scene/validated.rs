@@ -39,6 +39,8 @@ pub struct Draft {
     pub duration: f64,
     /// What the screen shows at first, m.
     pub view: Bounds,
+    /// Where the run goes on from, if the spheres are where another run has left them.
+    pub resume: Option<Resume>,
     /// Walls in file order, a `Room` expanded in place.
     pub walls: Vec<Wall>,
     /// Spheres in file order, generators expanded in place.
@@ -56,7 +58,7 @@ pub struct Draft {
 /// scene.spheres[0].mass = -1.0; // cannot be assigned to
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Scene(Draft);
+pub struct Scene(pub(super) Draft);
 
 impl Scene {
     /// Seals a draft of which the caller knows that it meets the rules.
@@ -71,6 +73,15 @@ impl Deref for Scene {
     fn deref(&self) -> &Draft {
         &self.0
     }
+}
+
+/// What a run needs to go on bit for bit where another run by the scene's settings was, beside positions and velocities.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Resume {
+    /// The time then, s, ≥ 0.
+    pub t: f64,
+    /// What [`Simulation::transient`](crate::physics::Simulation::transient) said then.
+    pub transient: Vec<DVec3>,
 }
 
 /// The contact law (design: impact law; source: paper 2.4).

@@ -22,6 +22,11 @@ pub(super) fn refuse_values(draft: &Draft, source: Source) -> Result<(), Error> 
     number::<NotNegative>(draft.duration, &[Field("duration")], source)?;
     vector(view.min, &[Field("view"), Field("min")], source)?;
     vector(view.max, &[Field("view"), Field("max")], source)?;
+    if let Some(resume) = &draft.resume {
+        number::<NotNegative>(resume.t, &[Field("resume"), Field("t")], source)?;
+        let at = |index| [Field("resume"), Field("transient"), Index(index)];
+        resume.transient.iter().enumerate().try_for_each(|(index, value)| vector(*value, &at(index), source))?;
+    }
     draft.walls.iter().enumerate().try_for_each(|(index, wall)| refuse_wall(index, wall, source))?;
     refuse_places::<Number>(&draft.spheres, source)?;
     draft.spheres.iter().enumerate().try_for_each(|(index, sphere)| refuse_sphere(index, sphere, source))

@@ -7,10 +7,15 @@
 //! | `stage` | what does not change during a run |
 //! | `run` | the run at the end of one frame |
 //! | `ghost` | where the exact run of the same scene is |
+//! | `ahead` | where a sphere goes next |
 //! | `kept` | which frames one can go back to |
+//! | `event_log`, `event_filter` | what has happened from the start on, and which of it is wanted |
 //! | `ticks`, `trend`, `bins` | impacts and other quantities over time |
 
+mod ahead;
 mod bins;
+mod event_filter;
+mod event_log;
 mod ghost;
 mod kept;
 mod run;
@@ -18,6 +23,9 @@ mod stage;
 mod ticks;
 mod trend;
 
+pub use ahead::Ahead;
+pub use event_filter::EventFilter;
+pub use event_log::{EventLog, Logged};
 pub use ghost::Ghost;
 pub use kept::Kept;
 pub use run::Snapshot;

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::stage::Stage;
 use crate::audit::Alarm;
-use crate::physics::{Approach, Class, Contact, Probe, RestReason, Simulation, Stall, State, Tallies, slack};
+use crate::physics::{Approach, Class, Contact, Kind, Probe, RestReason, Simulation, Stall, State, Tallies, slack};
 
 /// Most centres that the trial steps of a snapshot hold: half a megabyte.
 const TRIALS: usize = 20_000;
@@ -41,6 +41,8 @@ pub struct Snapshot {
     pub probes: Vec<Probe>,
     /// Centres in each of these trial steps, m; empty if there are too many of them, or if the next frame is in progress.
     pub trials: Vec<Vec<DVec3>>,
+    /// What the model leaves out because the scene does not require it, a phrase each.
+    pub left_out: Vec<&'static str>,
     /// Counted since t = 0.
     pub tallies: Tallies,
     /// Name of the method.
@@ -72,9 +74,10 @@ impl Snapshot {
             initial_energy: sim.initial_energy(),
             contacts: sim.contacts().to_vec(),
             rest_reasons: sim.contacts().iter().map(|contact| reason(sim, contact)).collect(),
-            approaches: sim.contacts().iter().take(APPROACHES).map(|contact| approach(sim, contact)).collect(),
+            approaches: approaches(sim),
             probes: sim.probes().to_vec(),
             trials: trials(sim),
+            left_out: sim.model().requirements().left_out(),
             tallies: sim.tallies(),
             method: settings.method.name(),
             dt: settings.dt,
@@ -115,7 +118,19 @@ fn trials(sim: &Simulation) -> Vec<Vec<DVec3>> {
     probes.iter().map(|probe| Some(sim.trial(probe.step)?.x)).collect::<Option<_>>().unwrap_or_default()
 }
 
-fn approach(sim: &Simulation, contact: &Contact) -> Option<Approach> {
-    let led_here = |approach: &&Approach| approach.key == contact.key() && approach.time == contact.time;
-    sim.approaches().iter().find(led_here).copied()
+/// How each of the first contacts came about, by index.
+fn approaches(sim: &Simulation) -> Vec<Option<Approach>> {
+    if sim.contacts().is_empty() {
+        return Vec::new();
+    }
+    let order =
+        |one: &Approach, (key, time): ((Kind, usize, usize), f64)| one.key.cmp(&key).then(one.time.total_cmp(&time));
+    let mut sorted: Vec<&Approach> = sim.approaches().iter().collect();
+    sorted.sort_by(|one, other| order(one, (other.key, other.time))); // stable: of the same the first stays first
+    let led_to = |contact: &Contact| {
+        let here = (contact.key(), contact.time);
+        let first = sorted.partition_point(|one| order(one, here).is_lt());
+        sorted.get(first).filter(|one| order(one, here).is_eq()).map(|one| **one)
+    };
+    sim.contacts().iter().take(APPROACHES).map(led_to).collect()
 }

@@ -3,6 +3,7 @@
 use std::{
     io,
     os::fd::AsFd,
+    path::PathBuf,
     sync::{
         Arc,
         mpsc::{self, Receiver, RecvTimeoutError},
@@ -71,6 +72,8 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
         colors: environment.colors(options.color),
         inks: options.inks,
         keymap: options.keymap,
+        recording: options.recording,
+        folder: PathBuf::from("."),
     };
     let (sender, events) = mpsc::channel();
     let post = Post(sender);

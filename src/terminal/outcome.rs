@@ -5,6 +5,7 @@ use std::{fmt, io};
 use crate::{
     app::Keymap,
     printable,
+    recording::Recording,
     scene::{Opened, Settings},
     view::{Colors, Inks, Marker},
 };
@@ -16,6 +17,8 @@ pub struct Options {
     pub opened: Opened,
     /// What to solve it with.
     pub settings: Settings,
+    /// The recording that it is of, if it is.
+    pub recording: Option<Recording>,
     /// What to say at first, if anything.
     pub message: Option<String>,
     /// Wait at t = 0 instead of running.

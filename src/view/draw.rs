@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use super::{
-    card, help, inspector,
+    card, events, help, inspector,
     layout::{self, Plan},
     projection, prompt, scenes,
     screen::{Popup, Screen, ViewSettings},
@@ -77,6 +77,7 @@ fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
 fn draw_popup(screen: &Screen, body: Rect, sheet: &mut Sheet) -> bool {
     match screen.popup {
         Popup::None | Popup::Prompt { .. } => return false,
+        Popup::Events(list) => events::draw(&list, screen.snapshot, body, sheet),
         Popup::Help { rows, scroll } => help::draw(rows, scroll, body, sheet),
         Popup::Scenes { filter, filtering, entries, cursor } => {
             scenes::draw(&scenes::List { filter, filtering, entries, cursor }, body, sheet);
@@ -90,6 +91,7 @@ pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
     let (body, last) = popup_places(screen.view_settings, area)?;
     match screen.popup {
         Popup::Prompt { text, cursor, .. } => prompt::cursor(text, cursor, last),
+        Popup::Events(list) => events::cursor(list.typed, body),
         Popup::Scenes { filter, filtering: true, .. } => scenes::cursor(filter, body),
         _ => None,
     }

@@ -27,6 +27,8 @@ pub(super) struct Glyphs {
     pub(super) contact: [char; 3],
     /// More rows: above, below.
     pub(super) more: [&'static str; 2],
+    /// A wall goes on beyond the view: to the left, the right, up, down.
+    pub(super) on: [char; 4],
     /// Entry under the cursor.
     pub(super) pointer: &'static str,
 }
@@ -43,6 +45,7 @@ const UNICODE: Glyphs = Glyphs {
     levels: &['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'],
     contact: ['×', '•', '·'],
     more: ["↑", "↓"],
+    on: ['←', '→', '↑', '↓'],
     pointer: "▸",
 };
 
@@ -58,6 +61,7 @@ const ASCII: Glyphs = Glyphs {
     levels: &['.', ':', '+', '*', '#'],
     contact: ['x', '=', '.'],
     more: ["^", "v"],
+    on: ['<', '>', '^', 'v'],
     pointer: ">",
 };
 

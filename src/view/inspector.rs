@@ -1,20 +1,24 @@
 //! The inspector: the selected sphere, the run's balance, the frame's contacts, its search for the collision time.
 
-use glam::DVec3;
 use ratatui::layout::Rect;
 
 use super::{
     column::Column,
+    distribution,
     layout::split_left,
     probes,
     screen::Screen,
     sheet::{self, Sheet},
+    sphere,
 };
 use crate::format;
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
 
+/// Rows of what the model leaves out, at most.
+const LEFT_OUT: usize = 3;
+
 /// Rows of the run's balance, and those that the contacts should have at least.
-const RUN: usize = 9;
+const RUN: usize = 9 + LEFT_OUT;
 /// See [`RUN`].
 const CONTACTS: usize = 14;
 
@@ -26,45 +30,17 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (_, area) = split_left(area, 1);
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let mut column = Column::new(area, sheet);
-    draw_sphere(screen, &mut column);
+    // with a sphere selected it is that one that matters
+    let chosen = screen.view_settings.selected.is_some();
+    if chosen || !distribution::draw(screen.snapshot, &mut column) {
+        sphere::draw(screen, &mut column);
+    }
     // Only sizes decide what is shown, never how many contacts there are: nothing jumps while it runs.
     if column.rows() >= RUN + CONTACTS {
         draw_run(screen.snapshot, &mut column);
     }
     draw_contacts(screen.snapshot, &mut column);
     probes::draw(&probes::Search::new(screen.snapshot, None), &mut column);
-}
-
-/// The selected sphere: position, velocity, speed, kinetic energy, mass, radius.
-fn draw_sphere(screen: &Screen, column: &mut Column) {
-    let snapshot = screen.snapshot;
-    let stage = &snapshot.stage;
-    let chosen = screen.view_settings.selected.and_then(|i| Some((i, snapshot.x.get(i)?, snapshot.v.get(i)?)));
-    let Some((i, x, v)) = chosen else {
-        column.heading("sphere", "none selected");
-        return column.skip();
-    };
-    let name = stage.names.get(i).and_then(|name| name.as_deref()).unwrap_or("");
-    column.heading(&format!("sphere #{i}"), name);
-    draw_vectors(*x, *v, column);
-    let mass = stage.masses.get(i).copied().unwrap_or(f64::NAN);
-    column.entry("speed", &format::decimal(v.length(), 10, 4), "m/s");
-    column.entry("kinetic", &format::decimal(0.5 * mass * v.length_squared(), 10, 4), "J");
-    column.entry("mass", &format::setting(mass), "kg");
-    column.entry("radius", &format::setting(stage.radii.get(i).copied().unwrap_or(f64::NAN)), "m");
-    column.skip();
-}
-
-/// Position and velocity side by side, in columns as wide as there is room for.
-fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
-    let (faint, plain) = (column.sheet().palette.faint(), column.sheet().palette.plain());
-    let width = (column.width().saturating_sub(1) / 2).clamp(9, 14);
-    let decimals = (width - 6).min(6);
-    column.row(&format!(" {:>width$}{:>width$}", "position m", "velocity m/s"), faint);
-    for (axis, x, v) in [("x", x.x, v.x), ("y", x.y, v.y), ("z", x.z, v.z)] {
-        let values = format::decimal(x, width, decimals) + &format::decimal(v, width, decimals);
-        column.pieces(&[(axis, faint), (&values, plain)]);
-    }
 }
 
 /// Energy and tallies of the whole run.
@@ -85,7 +61,23 @@ fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     column.entry("impacts", &format::thousands(tallies.impacts), "");
     column.entry("rests", &format::thousands(tallies.rests), "");
     column.entry("gaps", &format::thousands(tallies.evaluations), "computed");
+    draw_left_out(snapshot, column);
     column.skip();
+}
+
+/// What the model leaves out, because the scene does not require it.
+fn draw_left_out(snapshot: &Snapshot, column: &mut Column) {
+    if snapshot.left_out.is_empty() {
+        return;
+    }
+    let text = format!("leaves out {}", snapshot.left_out.join(", "));
+    let faint = column.sheet().palette.faint();
+    let lines = sheet::wrap(&text, column.width() as u16);
+    let cut = lines.len() > LEFT_OUT;
+    for (index, line) in lines.into_iter().take(LEFT_OUT).enumerate() {
+        let end = if cut && index + 1 == LEFT_OUT { column.sheet().glyphs.ellipsis } else { "" };
+        column.row(&format!("{line}{end}"), faint);
+    }
 }
 
 /// Two rows a contact: bodies, class, degree; approach speed before → separation speed after, impulse.

@@ -14,15 +14,20 @@
 //! | `projection`, `canvas`, `shapes` | metres to dots, dots to cells, lines and circles of dots |
 //! | `side` | which way a view looks |
 //! | `pane`, `stage`, `overlays` | one view: what it is drawn on, walls and spheres, marks over and under them |
+//! | `arrows`, `paths` | impulses and forces to a scale; where spheres were, and where one goes |
 //! | `pointing` | what is under a cell: the way back from cells to metres and seconds |
-//! | `column`, `inspector`, `probes` | the inspector: its rows, its sections, the search for the collision time |
+//! | `column`, `inspector`, `sphere`, `probes` | the inspector: its rows, its sections, the selected sphere, the search for the collision time |
+//! | `distribution` | how many spheres are how fast, or where: a chart |
 //! | `card` | one contact taken apart, in the inspector's place |
-//! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes` | a strip or popup each |
+//! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes`, `events` | a strip or popup each |
 
+mod arrows;
 mod canvas;
 mod card;
 mod column;
+mod distribution;
 mod draw;
+mod events;
 mod glyphs;
 mod help;
 mod ink;
@@ -31,6 +36,7 @@ mod layout;
 mod overlays;
 mod palette;
 mod pane;
+mod paths;
 mod pointing;
 mod probes;
 mod projection;
@@ -40,6 +46,7 @@ mod screen;
 mod shapes;
 mod sheet;
 mod side;
+mod sphere;
 mod stage;
 mod status;
 mod timeline;
@@ -50,4 +57,6 @@ pub use draw::{cursor, draw, help_scroll_limit, visible_span};
 pub use ink::{Background, Ink, Inks, MOST_TURNS};
 pub use layout::inspector_is_shown;
 pub use pointing::{Aim, Target, time_at, timeline_row};
-pub use screen::{CardView, Colors, Comparison, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views};
+pub use screen::{
+    CardView, Colors, Comparison, EventsView, Marker, Mode, Overlays, Pace, Popup, Screen, ViewSettings, Views,
+};

@@ -3,14 +3,15 @@
 use glam::DVec3;
 
 use super::{
+    arrows::{Quantity, draw_arrow, draw_pushes},
     canvas::{Ink, Layer},
     card,
     pane::View,
-    shapes,
+    paths,
     sheet::Sheet,
 };
 use crate::format;
-use crate::snapshot::{Class, Contact, Kind};
+use crate::snapshot::{Class, Kind};
 
 /// Length of a contact normal seen from the side, dots: three cells high, whatever the zoom.
 const NORMAL: f64 = 12.0;
@@ -18,11 +19,9 @@ const NORMAL: f64 = 12.0;
 /// Distance of a wall's number from the point of its contact, dots: a cell and a half, on the side away from the sphere.
 const BEHIND: f64 = 6.0;
 
-/// Length of an arrow head's barbs, dots; shorter arrows have none.
-const BARB: f64 = 3.0;
-
-/// Draws normals and velocities, under the spheres.
+/// Draws paths, normals, velocities, impulses and forces, under the spheres.
 pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
+    paths::draw(view, sheet);
     let overlays = view.screen.view_settings.overlays;
     if overlays.velocities {
         draw_velocities(view, sheet);
@@ -30,6 +29,8 @@ pub(super) fn draw_arrows(view: &mut View, sheet: &Sheet) {
     if overlays.normals {
         draw_normals(view, sheet);
     }
+    Quantity::Force.draw(view, sheet);
+    Quantity::Impulse.draw(view, sheet);
 }
 
 /// Draws contact marks and numbers, over the spheres.
@@ -39,9 +40,12 @@ pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
         draw_contacts(view, sheet);
     }
     draw_chosen(view, sheet);
-    let spheres = if settings.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
-    for sphere in spheres.filter(|sphere| settings.selected != Some(*sphere)).chain(settings.selected) {
-        draw_number(view, sphere, sheet);
+    let others = if settings.overlays.ids { 0..view.screen.snapshot.x.len() } else { 0..0 };
+    let others = others.filter(|sphere| settings.selected != Some(*sphere));
+    // The selected one's is always there; of others that would stand in each other's way the first.
+    let mut taken = vec![false; usize::from(view.area.width) * usize::from(view.area.height)];
+    for sphere in settings.selected.into_iter().chain(others) {
+        draw_number(view, sphere, &mut taken, sheet);
     }
 }
 
@@ -61,10 +65,7 @@ fn draw_velocities(view: &mut View, sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     for ((x, v), radius) in snapshot.x.iter().zip(&snapshot.v).zip(&snapshot.stage.radii) {
         let rim = *x + v.normalize_or_zero() * *radius;
-        let (tail, tip) = (view.project(rim), view.project(rim + *v * seconds));
-        if tail != tip {
-            draw_arrow(view, tail, tip, ink);
-        }
+        draw_arrow(view, rim, rim + *v * seconds, ink);
     }
 }
 
@@ -72,19 +73,7 @@ fn draw_velocities(view: &mut View, sheet: &Sheet) {
 fn draw_normals(view: &mut View, sheet: &Sheet) {
     let ink = Ink::new(Layer::Arrow, sheet.palette.normal());
     for contact in &view.screen.snapshot.contacts {
-        draw_pushes(view, contact, ink);
-    }
-}
-
-/// Arrows along a contact's normal, outside the spheres that it pushes.
-fn draw_pushes(view: &mut View, contact: &Contact, ink: Ink) {
-    let snapshot = view.screen.snapshot;
-    let other = (contact.kind == Kind::Pair).then_some((contact.b, -contact.normal));
-    for (sphere, normal) in [(contact.a, contact.normal)].into_iter().chain(other) {
-        let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { continue };
-        let rim = *x + normal * *radius;
-        let (tail, tip) = (view.project(rim), view.project(rim + normal * (NORMAL / view.camera.scale)));
-        draw_arrow(view, tail, tip, ink);
+        draw_pushes(view, contact, NORMAL / view.camera.scale, ink);
     }
 }
 
@@ -93,7 +82,7 @@ fn draw_chosen(view: &mut View, sheet: &Sheet) {
     let chosen = view.screen.view_settings.card.and_then(|card| card::chosen(view.screen, card));
     let Some(contact) = chosen.map(|index| view.screen.snapshot.contacts[index]) else { return };
     let style = sheet.palette.alarm().patch(sheet.palette.strong());
-    draw_pushes(view, &contact, Ink::new(Layer::Selected, style));
+    draw_pushes(view, &contact, NORMAL / view.camera.scale, Ink::new(Layer::Selected, style));
     let behind = contact.point - contact.normal * (BEHIND / view.camera.scale);
     if contact.kind == Kind::Wall && on_canvas(view, contact.point).is_some() {
         let text = format!("w{}", contact.b);
@@ -102,19 +91,6 @@ fn draw_chosen(view: &mut View, sheet: &Sheet) {
         let at = (x.round().clamp(0.0, f64::from(right.max(0))), y.round().clamp(0.0, f64::from(bottom)));
         view.canvas.text(at.0 as i32, at.1 as i32, &text, Ink::new(Layer::Selected, style));
     }
-}
-
-/// A line with two barbs at 45° to it.
-fn draw_arrow(view: &mut View, tail: shapes::Dots, tip: shapes::Dots, ink: Ink) {
-    shapes::line(&mut view.canvas, tail, tip, ink);
-    let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
-    let length = (dx * dx + dy * dy).sqrt();
-    if length.is_nan() || length < BARB + 1.0 {
-        return;
-    }
-    let (ux, uy) = (dx / length * BARB * 0.7, dy / length * BARB * 0.7);
-    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), ink);
-    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), ink);
 }
 
 /// A sign at each contact point: a cross for an impact, a bullet for a rest, a small dot for what leaves.
@@ -133,7 +109,7 @@ fn draw_contacts(view: &mut View, sheet: &Sheet) {
 }
 
 /// A sphere's number: in it if it is large enough, else to its upper right. The selected one's has a `#`.
-fn draw_number(view: &mut View, sphere: usize, sheet: &Sheet) {
+fn draw_number(view: &mut View, sphere: usize, taken: &mut [bool], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { return };
     let selected = view.screen.view_settings.selected == Some(sphere);
@@ -148,7 +124,24 @@ fn draw_number(view: &mut View, sphere: usize, sheet: &Sheet) {
         let aside = r.clamp(0.0, f64::from(view.canvas.width())) + if selected { 4.0 } else { 1.0 };
         (x + (aside * 0.8) as i32 + 1, y - (aside * 0.8) as i32 - 1)
     };
-    view.canvas.text(x, y, &text, Ink::new(layer, sheet.palette.strong()));
+    if takes(view, (x, y), text.len(), taken) {
+        view.canvas.text(x, y, &text, Ink::new(layer, sheet.palette.strong()));
+    }
+}
+
+/// Takes the cells of a text of so many characters that begins at a dot, and one beside it, unless one of them is taken.
+fn takes(view: &View, (x, y): (i32, i32), length: usize, taken: &mut [bool]) -> bool {
+    let columns = usize::from(view.area.width);
+    let row = usize::try_from(y.div_euclid(4)).ok();
+    let cells: Vec<usize> = (0..=length as i32)
+        .filter_map(|i| usize::try_from((x + 2 * i).div_euclid(2)).ok().filter(|column| *column < columns))
+        .filter_map(|column| Some(row? * columns + column).filter(|cell| *cell < taken.len()))
+        .collect();
+    let free = cells.iter().all(|cell| !taken[*cell]);
+    if free {
+        cells.iter().for_each(|cell| taken[*cell] = true);
+    }
+    free
 }
 
 /// The dot a point falls on, if it is on the canvas.

@@ -1,9 +1,11 @@
 //! Everything that a frame shows: what a caller fills in, and every part of the view reads.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::ink::{Background, Inks};
-use crate::snapshot::{Ghost, Kept, Snapshot, Ticks, Trade};
+use crate::snapshot::{Ahead, EventFilter, EventLog, Ghost, Kept, Snapshot, Ticks, Trade};
 
 /// Everything one frame shows.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +18,14 @@ pub struct Screen<'a> {
     pub ticks: &'a Ticks,
     /// Which frames one can go to.
     pub kept: Kept,
+    /// Where all spheres were in the last frames, the one shown included, the newest last, m, if that is known.
+    pub trail: &'a [Arc<Vec<DVec3>>],
+    /// What comes next of the selected sphere, if that is known.
+    pub ahead: Option<&'a Ahead>,
+    /// What has happened so far.
+    pub log: Option<&'a EventLog>,
+    /// Frames of the recording under way.
+    pub recorded: Option<u64>,
     /// The exact run beside this one, where it was asked for.
     pub comparison: Option<Comparison<'a>>,
     /// What the user chose to look at, and how.
@@ -146,6 +156,14 @@ pub struct Overlays {
     pub velocities: bool,
     /// Sphere numbers.
     pub ids: bool,
+    /// Impulses of impacts, as arrows to a scale.
+    pub impulses: bool,
+    /// Support forces of contacts at rest, as arrows to a scale.
+    pub forces: bool,
+    /// Where spheres were in the last frames.
+    pub path: bool,
+    /// Where the selected sphere goes until its next contact.
+    pub predicted: bool,
 }
 
 /// How dots become characters.
@@ -172,6 +190,21 @@ pub enum Colors {
     Rgb,
 }
 
+/// The list of all that has happened, as far as it is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EventsView<'a> {
+    /// What has happened.
+    pub log: &'a EventLog,
+    /// What of it is shown.
+    pub filter: &'a EventFilter,
+    /// What was typed to narrow it.
+    pub typed: &'a str,
+    /// What is wrong with what was typed: a sentence.
+    pub wrong: Option<&'a str>,
+    /// The number of the event under the cursor; none: the newest.
+    pub cursor: Option<u64>,
+}
+
 /// What lies over the views.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Popup<'a> {
@@ -195,6 +228,8 @@ pub enum Popup<'a> {
         /// The one under the cursor.
         cursor: usize,
     },
+    /// The list of all that has happened.
+    Events(EventsView<'a>),
     /// The `:` line, as typed so far, with the byte offset of its cursor.
     Prompt {
         /// Text after the colon.

@@ -25,6 +25,21 @@ pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, ink: Ink) {
     }
 }
 
+/// Where a line that is partly on the canvas goes on beyond its border: the last dot there, and whether it goes on to the left, the
+/// right, up or down.
+pub(super) fn leaves(canvas: &Canvas, a: Dots, b: Dots) -> Vec<(i32, i32, usize)> {
+    let Some((from, to)) = clip(canvas, a, b) else { return Vec::new() };
+    let (right, bottom) = (canvas.width() - 1, canvas.height() - 1);
+    let cut = [(a, from), (b, to)].into_iter().filter(|(end, seen)| end != seen);
+    let at = cut.map(|(_, seen)| {
+        let (x, y) = ((seen.0.round() as i32).clamp(0, right), (seen.1.round() as i32).clamp(0, bottom));
+        let borders = [seen.0 + 0.5, f64::from(right) + 0.5 - seen.0, seen.1 + 0.5, f64::from(bottom) + 0.5 - seen.1];
+        let nearest = (0..4).fold(0, |best, side| if borders[side] < borders[best] { side } else { best });
+        (x, y, nearest)
+    });
+    at.collect()
+}
+
 /// From the dot nearest to one coordinate to the dot nearest to another.
 fn between(a: f64, b: f64) -> std::ops::RangeInclusive<i32> {
     a.min(b).round() as i32..=a.max(b).round() as i32
@@ -173,6 +188,17 @@ mod tests {
             let i = f64::from(i);
             ((39.0 + (i * 0.37) % 1.0, 41.0 + (i * 0.73) % 1.0), 1.5 + i * 0.09)
         })
+    }
+
+    #[test]
+    fn a_line_leaves_the_canvas_where_its_border_cuts_it_and_nowhere_else() {
+        let canvas = Canvas::new(Rect::new(0, 0, 40, 20));
+        assert_eq!(leaves(&canvas, (10.0, 10.0), (70.0, 60.0)), []);
+        assert_eq!(leaves(&canvas, (-50.0, 20.0), (40.0, 20.0)), [(0, 20, 0)]);
+        assert_eq!(leaves(&canvas, (40.0, 20.0), (900.0, 20.0)), [(79, 20, 1)]);
+        assert_eq!(leaves(&canvas, (40.0, -9e9), (40.0, 9e9)), [(40, 0, 2), (40, 79, 3)]);
+        assert_eq!(leaves(&canvas, (200.0, 0.0), (300.0, 40.0)), [], "all of it is beyond");
+        assert_eq!(leaves(&canvas, (f64::NAN, 0.0), (3.0, 4.0)), []);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::{
+    arrows::Quantity,
     canvas::{Canvas, Ink, Layer},
     layout::Pane,
     overlays,
@@ -55,7 +56,12 @@ fn draw_walls(view: &mut View, sheet: &Sheet) {
         let ink = Ink::new(Layer::Wall, sheet.palette.wall(*color));
         let dots = corners.map(|corner| view.project(corner));
         for i in 0..4 {
-            shapes::line(&mut view.canvas, dots[i], dots[(i + 1) % 4], ink);
+            let (from, to) = (dots[i], dots[(i + 1) % 4]);
+            shapes::line(&mut view.canvas, from, to, ink);
+            // a wall that the view cuts goes on there
+            for (x, y, side) in shapes::leaves(&view.canvas, from, to) {
+                view.canvas.sign(x, y, sheet.glyphs.on[side], ink);
+            }
         }
     }
 }
@@ -185,6 +191,9 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     }
     if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.view_settings.overlays.velocities) {
         extra += &format!("  {} {} s", sheet.glyphs.arrow, format::setting(seconds));
+    }
+    for quantity in [Quantity::Impulse, Quantity::Force] {
+        extra += &quantity.label(view).unwrap_or_default();
     }
     let scale = scale_bar(view, sheet) + " ";
     let room = usize::from(label.width - used);

@@ -40,6 +40,10 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
         let alarm = sheet.palette.alarm().patch(sheet.palette.reverse()).patch(sheet.palette.strong());
         used += 1 + sheet.put(split_left(area, used + 1).1, " ALARM ", alarm);
     }
+    if screen.recorded.is_some() {
+        used +=
+            1 + sheet.put(split_left(area, used + 1).1, " REC ", sheet.palette.alarm().patch(sheet.palette.reverse()));
+    }
     let (_, area) = split_left(area, used + 1);
     let (area, _) = split_right(area, 1);
     let key = &screen.snapshot.stage.key;

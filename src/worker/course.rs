@@ -4,9 +4,12 @@
 //! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
 //! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
 
+mod taken;
+
 use super::{
     job::Job,
     keyframes::{Keyframes, MOST_FRAMES, NOTICED, RECENT},
+    tape::{Found, Script, Tape},
 };
 use crate::{
     physics::{Contact, Progress, Simulation, Stall, Until},
@@ -67,7 +70,8 @@ pub(super) struct Course {
     changed: usize,
     /// Whether the run can be begun again, with all its changes.
     from_start: bool,
-    /// Impacts at its beginning.
+    /// Its time at its beginning, s, and the impacts there.
+    begun: f64,
     first_impacts: u64,
     newest: Option<Box<Newest>>,
     /// The earlier frame that the run is on its way to from a keyframe, and the work since that or the one kept last, s.
@@ -75,15 +79,27 @@ pub(super) struct Course {
     scout: Option<Box<Scout>>,
     /// The frame that was shown when a scout came home last.
     scouted: Option<u64>,
+    /// Whether every call ends with a frame.
+    frame_by_frame: bool,
+    /// The recording under way, and the one that is followed.
+    tape: Option<Tape>,
+    script: Option<Script>,
+    /// What was found of that, and not told yet.
+    found: Option<Found>,
+    /// What has happened again and was not told yet.
+    passed: Vec<Contact>,
 }
 
 impl Course {
     /// The job's run at t = 0.
     pub(super) fn new(job: Job) -> Course {
         let simulation = begin(&job);
+        let mut script = job.recording.clone().map(Script::new);
+        let found = script.as_mut().and_then(|script| script.compare(&simulation));
         let mut keyframes = Keyframes::default();
         keyframes.keep(&simulation, 0, || 0.0);
         Course {
+            begun: simulation.time(),
             first_impacts: simulation.tallies().impacts,
             job,
             simulation,
@@ -98,6 +114,11 @@ impl Course {
             toward: None,
             scout: None,
             scouted: None,
+            frame_by_frame: false,
+            tape: None,
+            script,
+            found,
+            passed: Vec::new(),
         }
     }
 
@@ -111,9 +132,14 @@ impl Course {
         &self.simulation
     }
 
-    /// What has happened since the last call.
+    /// What has happened for the first time since the last call.
     pub(super) fn take_events(&mut self) -> Vec<Contact> {
         self.simulation.take_events()
+    }
+
+    /// What has happened again since the last call, in frames that were done again.
+    pub(super) fn take_passed(&mut self) -> Vec<Contact> {
+        std::mem::take(&mut self.passed)
     }
 
     /// Why it cannot go on, if it cannot.
@@ -136,6 +162,12 @@ impl Course {
         self.simulation.tallies().impacts
     }
 
+    /// Events so far.
+    pub(super) fn events(&self) -> u64 {
+        let tallies = self.simulation.tallies();
+        tallies.impacts + tallies.rests + tallies.releases
+    }
+
     /// Frames completed.
     pub(super) fn frame(&self) -> u64 {
         self.simulation.tallies().frames
@@ -156,7 +188,7 @@ impl Course {
     pub(super) fn oldest(&self) -> (u64, f64, u64) {
         let first = self.keyframes.first().map(|kept| (kept.frame, kept.time, kept.impacts));
         match first {
-            _ if self.from_start => (0, 0.0, self.first_impacts),
+            _ if self.from_start => (0, self.begun, self.first_impacts),
             Some(first) => first,
             None => (self.newest().0, self.newest().1, u64::MAX),
         }
@@ -171,8 +203,9 @@ impl Course {
     }
 
     /// From here on, or from the end of the frame in progress, other settings; whether they wait for that. The run is
-    /// at its newest frame.
+    /// at its newest frame. It follows no recording any more.
     pub(super) fn set(&mut self, settings: Settings) -> bool {
+        self.script = None;
         if !self.whole && self.stall.is_none() {
             self.waiting = Some(settings);
             return true;
@@ -206,6 +239,11 @@ impl Course {
         self.changed += 1;
     }
 
+    /// Has every call end with a frame, or not.
+    pub(super) fn go_frame_by_frame(&mut self, on: bool) {
+        self.frame_by_frame = on;
+    }
+
     /// Goes on: one call of [`Simulation::advance`] to the goal, or to a frame before it where there is something to do.
     pub(super) fn advance(&mut self, until: Until, work: u64) -> Progress {
         if self.is_past() {
@@ -216,11 +254,20 @@ impl Course {
         {
             self.begin_anew(); // frames are as long as this goal makes them: they could not be found again
         }
-        let waits = self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
+        self.make_due(false);
+        let before = self.frame();
+        let one_by_one = self.frame_by_frame
+            || self.tape.is_some()
+            || self.script.as_ref().is_some_and(|script| script.goes_on(self.frame()));
+        let waits = one_by_one || self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
         let progress = self.simulation.advance(if waits { Until::Frame } else { until }, work.min(self.most_work()));
         self.whole = progress == Progress::Reached;
         if let Progress::Stalled(stall) = &progress {
             self.stall = Some(stall.clone());
+        }
+        // also one at whose end the run cannot go on
+        if self.frame() > before {
+            self.note_frame();
         }
         match (self.waiting, &progress) {
             (Some(settings), Progress::Reached) => self.change(settings),
@@ -228,6 +275,7 @@ impl Course {
                 self.change(settings);
                 return Progress::Yielded; // tried again
             }
+            (None, Progress::Stalled(_)) if self.make_due(true) => return Progress::Yielded,
             _ => {}
         }
         progress
@@ -310,7 +358,9 @@ impl Course {
         } else {
             let next = self.changes.get(self.changed).map_or(f64::INFINITY, |change| change.time);
             let until = match until {
-                Until::Time(t) if t.min(next) > self.simulation.time() => Until::Time(t.min(next)),
+                Until::Time(t) if !self.frame_by_frame && t.min(next) > self.simulation.time() => {
+                    Until::Time(t.min(next))
+                }
                 _ => Until::Frame,
             };
             let progress = self.simulation.advance(until, work);
@@ -319,6 +369,7 @@ impl Course {
                 return progress;
             }
         }
+        self.passed.extend(self.simulation.take_events());
         self.catch_up();
         Progress::Reached
     }
@@ -413,6 +464,8 @@ impl Course {
         self.keyframes.cut(self.frame(), self.time());
         self.scouted = None;
         self.changes.truncate(self.changed);
+        let frame = self.frame();
+        self.tape = self.tape.take_if(|tape| tape.cut(frame));
         newest.simulation.tallies().frames - self.frame()
     }
 
@@ -421,6 +474,7 @@ impl Course {
         self.keyframes = Keyframes::default();
         self.changes.clear();
         self.changed = 0;
+        (self.tape, self.script) = (None, None);
         self.from_start = false;
     }
 }

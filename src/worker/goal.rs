@@ -15,6 +15,8 @@ pub(super) enum Goal {
     Return(u64),
     /// To a frame that ends at or after this time, s.
     Time(f64),
+    /// To the frame in which the event of this number has happened, which ends at or after this time, s.
+    Event(u64, f64),
     /// Until something comes.
     Until(Box<Search>),
     /// Back to the last frame with an impact before this one.
@@ -51,10 +53,11 @@ impl Goal {
         matches!(self, Goal::Nowhere)
     }
 
-    /// How far one call may go.
-    pub(super) fn until(&self) -> Until {
+    /// How far one call may go in a run that is at `time`, s.
+    pub(super) fn until(&self, time: f64) -> Until {
         match self {
             Goal::Time(t) => Until::Time(*t),
+            Goal::Event(_, t) if *t > time => Until::Time(*t),
             _ => Until::Frame,
         }
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
+    recording::Recording,
     scene::{Scene, Settings},
     snapshot::Stage,
 };
@@ -16,4 +17,6 @@ pub struct Job {
     pub scene: Arc<Scene>,
     /// What to solve it with.
     pub settings: Settings,
+    /// The recording that the run follows, if it is one.
+    pub recording: Option<Arc<Recording>>,
 }

@@ -4,17 +4,20 @@
 
 use crate::{
     physics::{Keyframe, Simulation},
-    snapshot::shows_trials,
+    snapshot::{EventLog, shows_trials},
 };
 
+/// Memory that the history of a run may take, bytes: keyframes and the list of events.
+const HISTORY: usize = 64 << 20;
+
 /// Memory that all keyframes may take, bytes.
-pub(super) const BUDGET: usize = 64 << 20;
+pub(super) const BUDGET: usize = HISTORY - EventLog::MOST_BYTES;
 
 /// What is left of the budget after a thinning, so that it need not be done again at once.
 const THINNED: usize = BUDGET / 8 * 7;
 
 /// Memory that a single keyframe may take, bytes: of a run that needs more none is kept.
-const LARGEST: usize = BUDGET / 4;
+const LARGEST: usize = HISTORY / 4;
 
 /// Work from one keyframe to the next, s, unless copying costs more than a share of it: a replay that is not noticed.
 const SPACING: f64 = 1e-3;

@@ -1,14 +1,17 @@
 //! What goes to a worker's thread and what comes back.
 
-use std::sync::Arc;
+use std::sync::{Arc, mpsc::Sender};
 
 use super::{
+    around::Places,
     job::Job,
     stop::{Met, Stop},
+    tape::Taped,
 };
 use crate::{
-    scene::Settings,
-    snapshot::{Kept, Snapshot, Ticks},
+    recording::Suspect,
+    scene::{Scene, Settings},
+    snapshot::{Ahead, EventLog, Kept, Snapshot, Ticks},
 };
 
 /// Called, from the worker's thread, when there is a report that the reader has not taken.
@@ -23,14 +26,15 @@ pub enum Command {
     /// dropped.
     Run(bool),
     /// Complete so many more frames, then pause; of a run that was gone back in, up to the newest. Frames asked for
-    /// while some are under way add up.
+    /// while some are under way add up; while something is searched for, they come after that.
     Forward(u64),
-    /// So many frames back, or as many as there are. Frames asked for while some are under way add up.
+    /// So many frames back, or as many as there are. Frames asked for while some are under way add up; while something
+    /// is searched for, they come after that.
     Back(u64),
     /// Go on, as fast as possible, until this comes; then pause. If it does not come within the scene's duration, the
-    /// run is back where it was.
+    /// run is back where it was. Asked for while the run is on its way somewhere, it begins there.
     Until(Stop),
-    /// Back to the frame with the impact before.
+    /// Back to the frame with the impact before; asked for while the run is on its way somewhere, from there.
     PreviousImpact,
     /// Back to the first frame that is kept.
     Oldest,
@@ -38,6 +42,27 @@ pub enum Command {
     Newest,
     /// To the first frame that ends at or after this time, s, back or, as fast as possible, on; then pause.
     Goto(f64),
+    /// To the frame in which the event of this number, from 1, at this time, s, has happened; then pause.
+    GotoEvent {
+        /// Its number since t = 0.
+        number: u64,
+        /// Its time, s.
+        time: f64,
+    },
+    /// Keep where all spheres were in the last frames, or not; and look ahead, with nothing else to do, for the next contact
+    /// of a sphere.
+    Around {
+        /// Whether to keep where the spheres were.
+        path: bool,
+        /// The sphere.
+        sphere: Option<usize>,
+    },
+    /// Hand over the run at the end of its last frame, once none is in progress.
+    TakeAway(Sender<TakenAway>),
+    /// Record from the end of the frame shown, or in progress, on.
+    Record,
+    /// End the recording under way, and hand it over; nothing, if there is none.
+    EndRecording(Sender<Option<Taped>>),
     /// Back to t = 0 with the settings in force; running goes on running.
     Restart,
     /// Run at so many simulated seconds per second, > 0.
@@ -48,6 +73,17 @@ pub enum Command {
     #[cfg(debug_assertions)]
     #[doc(hidden)]
     Panic,
+}
+
+/// A run that is taken away.
+#[derive(Debug, Clone)]
+pub struct TakenAway {
+    /// The scene from which it goes on; none if a number of it is not finite.
+    pub scene: Option<Scene>,
+    /// Whether it goes on bit for bit, or to rounding only.
+    pub to_the_bit: bool,
+    /// What there is to draw.
+    pub snapshot: Arc<Snapshot>,
 }
 
 /// What a worker is doing.
@@ -68,6 +104,8 @@ pub struct Report {
     pub snapshot: Arc<Snapshot>,
     /// Collisions so far.
     pub ticks: Arc<Ticks>,
+    /// What has happened so far; of a run that was gone back in, up to its newest frame.
+    pub log: Arc<EventLog>,
     /// What the worker is doing.
     pub activity: Activity,
     /// Simulated seconds per second asked for.
@@ -78,8 +116,14 @@ pub struct Report {
     pub obeyed: u64,
     /// What it is, or will be from the next frame on, solved with.
     pub settings: Settings,
+    /// Frames of the recording under way.
+    pub recorded: Option<u64>,
     /// Which frames one can go to.
     pub kept: Kept,
+    /// Where all spheres were in the last frames, the one shown included, the newest last, m, if that was asked for.
+    pub trail: Vec<Places>,
+    /// What comes next of a sphere, if it was asked for and is known yet.
+    pub ahead: Option<Arc<Ahead>>,
     /// What there was to say last, and its number, from 1.
     pub said: Option<(u64, Said)>,
     /// CPU time spent on the run since t = 0, s; 0 where the system does not tell.
@@ -132,4 +176,36 @@ pub enum Said {
     Newest,
     /// There is no earlier impact.
     NoEarlierImpact,
+    /// A recording begins here.
+    Recording {
+        /// When, s.
+        t: f64,
+    },
+    /// No recording begins here: the run could not go on from here bit for bit.
+    NotRecordable,
+    /// No recording begins in the past of a run.
+    RecordingInThePast,
+    /// The recording under way is given up: the run has gone back to before its beginning.
+    RecordingLost,
+    /// The recording under way takes no more frames.
+    RecordingFull {
+        /// How many it has.
+        frames: u64,
+    },
+    /// The run is not as the recording that it follows.
+    Differs {
+        /// The first frame that differs.
+        frame: u64,
+        /// Its time, s.
+        t: f64,
+        /// What differs in it.
+        suspect: Suspect,
+    },
+    /// The recording that the run follows is over.
+    RecordingEnds {
+        /// With this frame.
+        frame: u64,
+        /// Whether all of it was as recorded.
+        same: bool,
+    },
 }

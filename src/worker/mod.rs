@@ -9,29 +9,37 @@
 //! | `message`, `job` | what goes to a worker and what comes back; what it works on |
 //! | `thread` | the worker, seen from its reader |
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
-//! | `goal`, `stop` | where the run ends its advance; what it waits for |
+//! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
 //! | `course`, `keyframes` | the run and its past; what of it is kept |
+//! | `tape`, `recorder` | a recording under way, and one that is followed |
+//! | `around` | what was shortly before, and what comes next of a sphere |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
 
+mod around;
 mod course;
 mod errands;
 mod exact_follower;
 mod goal;
+mod heading;
 mod job;
 mod keyframes;
 mod mailbox;
 mod message;
 mod pace;
+mod recorder;
 mod run;
 mod slot;
 mod stop;
+mod tape;
 mod thread;
 
+pub use around::Places;
 pub use errands::Errands;
 pub use exact_follower::{Ending, ExactFollower};
 pub use job::Job;
-pub use message::{Activity, Command, Notify, Report, Said};
+pub use message::{Activity, Command, Notify, Report, Said, TakenAway};
 pub use stop::{Bodies, Met, Stop};
+pub use tape::Taped;
 pub use thread::Worker;

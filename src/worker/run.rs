@@ -1,28 +1,29 @@
 //! What the worker's thread does: obey, advance by a slice, report.
 
 use std::{
+    collections::VecDeque,
     sync::{
         Arc,
-        mpsc::{Receiver, RecvTimeoutError, TryRecvError},
+        mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError},
     },
     time::{Duration, Instant},
 };
 
 use super::{
+    around::Around,
     course::Course,
-    goal::{Back, Goal, Way},
+    goal::Goal,
     job::Job,
-    message::{Activity, Command, Report, Said},
+    message::{Activity, Command, Report, Said, TakenAway},
     pace::Pace,
     slot::Slot,
-    stop::{Search, Stop},
 };
 use crate::{
     audit::Watch,
     measure::{self, Slices},
     physics::{Class, Contact, Progress, Until},
     scene::Settings,
-    snapshot::{Alarm, Snapshot, Ticks},
+    snapshot::{Alarm, EventLog, Snapshot, Ticks},
 };
 
 /// Time between two reports of a running run, s: more often than a screen is drawn.
@@ -37,51 +38,67 @@ const CALL: f64 = 3e-3;
 /// Reports take at most a fifth of the time, however large the scene.
 const REPORT_SHARE: f64 = 4.0;
 
+/// Commands that wait for others at most: more than a hand types ahead.
+const MOST_WAITING: usize = 1000;
+
 /// A run and its commands.
 pub(super) struct Runner {
-    commands: Receiver<Command>,
-    clock: Instant,
-    course: Course,
-    watch: Watch,
+    pub(super) commands: Receiver<Command>,
+    pub(super) clock: Instant,
+    pub(super) course: Course,
+    pub(super) watch: Watch,
     /// What was wrong before the watch began, in a run that was gone back in.
-    alarm: Alarm,
-    snapshot: Arc<Snapshot>,
-    ticks: Ticks,
-    goal: Goal,
+    pub(super) alarm: Alarm,
+    pub(super) snapshot: Arc<Snapshot>,
+    pub(super) ticks: Ticks,
+    pub(super) log: EventLog,
+    pub(super) goal: Goal,
+    /// What begins when the goal is reached, in turn.
+    pub(super) queue: VecDeque<Command>,
+    around: Around,
+    /// Who waits for the run at the end of the frame in progress.
+    takers: Vec<Sender<TakenAway>>,
+    /// Whether a recording begins at the end of the frame in progress.
+    pub(super) wants_tape: bool,
     /// What happened in the frame under way, or the one that has just ended.
-    events: Vec<Contact>,
+    pub(super) events: Vec<Contact>,
     /// Whether the next event is of another frame.
-    frame_is_over: bool,
-    pace: Pace,
-    slices: Slices,
-    obeyed: u64,
+    pub(super) frame_is_over: bool,
+    pub(super) pace: Pace,
+    pub(super) slices: Slices,
+    pub(super) obeyed: u64,
     /// What there was to say last, and how many things before.
-    said: Option<(u64, Said)>,
+    pub(super) said: Option<(u64, Said)>,
     /// Whether the simulation has moved since `snapshot`.
-    moved: bool,
+    pub(super) moved: bool,
     /// Whether anything has changed since the last report.
-    unreported: bool,
+    pub(super) unreported: bool,
     /// Whether there may be something to do while the run waits.
-    scouting: bool,
+    pub(super) scouting: bool,
     /// CPU time spent on advancing since t = 0, s.
-    cpu: f64,
+    pub(super) cpu: f64,
     /// When the next report of a running run is due, s on `clock`.
-    report_due: f64,
+    pub(super) report_due: f64,
 }
 
 impl Runner {
     pub(super) fn new(job: Job, speed: f64, commands: Receiver<Command>) -> Runner {
         let course = Course::new(job);
         let stage = Arc::clone(&course.job().stage);
-        Runner {
+        let mut runner = Runner {
             commands,
             clock: Instant::now(),
             snapshot: Arc::new(Snapshot::of(&stage, course.simulation(), None)),
             ticks: Ticks::new(stage.duration),
+            log: EventLog::default(),
             watch: Watch::new(course.simulation()),
             alarm: Alarm::default(),
             course,
             goal: Goal::Nowhere,
+            queue: VecDeque::new(),
+            around: Around::default(),
+            takers: Vec::new(),
+            wants_tape: false,
             events: Vec::new(),
             frame_is_over: true,
             pace: Pace::new(speed, 0.0, 0.0),
@@ -93,17 +110,22 @@ impl Runner {
             scouting: false,
             cpu: 0.0,
             report_due: 0.0,
-        }
+        };
+        runner.note_events();
+        runner.tell_found();
+        runner
     }
 
     /// Obeys, advances and reports until no sender of commands is left.
     pub(super) fn run(&mut self, slot: &Slot<Report>) {
         while self.listen() {
+            self.take_turns();
             if !self.goal.is_nowhere() {
                 self.slice();
+                self.take_turns();
                 self.scouting = true;
             } else if self.scouting {
-                self.scouting = self.course.scout(self.slices.work(), || self.clock.elapsed().as_secs_f64());
+                self.scout();
             }
             let now = self.now();
             if self.unreported && (self.goal.is_nowhere() || now >= self.report_due) {
@@ -112,6 +134,23 @@ impl Runner {
                 self.report_due = now + TICK.max(cost * REPORT_SHARE);
             }
         }
+    }
+
+    /// With nothing else to do.
+    fn scout(&mut self) {
+        let (work, clock) = (self.slices.work(), || self.clock.elapsed().as_secs_f64());
+        let before = self.around.ahead(&self.course).is_some();
+        let looks = self.around.look(&self.course, work, clock);
+        self.unreported |= self.around.ahead(&self.course).is_some() != before;
+        self.scouting = looks || self.course.scout(work, clock);
+    }
+
+    /// Keeps and looks for what is asked for around the frame shown.
+    fn look_around(&mut self, path: bool, sphere: Option<usize>) {
+        self.around.ask(path, sphere);
+        self.around.pass(self.course.simulation());
+        self.course.go_frame_by_frame(path);
+        self.scouting = true;
     }
 
     /// Obeys what has arrived; sleeps first if there is nothing else to do. False if no sender is left.
@@ -152,6 +191,12 @@ impl Runner {
     fn obey(&mut self, command: Command) {
         self.obeyed += 1;
         self.unreported = true;
+        if self.waits_its_turn(&command) {
+            if self.queue.len() < MOST_WAITING {
+                self.queue.push_back(command);
+            }
+            return;
+        }
         match command {
             Command::Load(job) => {
                 self.goal = Goal::Nowhere;
@@ -163,24 +208,22 @@ impl Runner {
                 self.moved |= self.course.is_past();
                 self.head_for(Goal::Nowhere);
             }
-            Command::Forward(frames) => {
-                let newest = if self.course.is_past() { self.course.newest().0 } else { u64::MAX };
-                self.go_to_frame(self.frame_ahead().saturating_add(frames).min(newest));
-            }
+            Command::Forward(frames) => self.on(frames),
             Command::Back(frames) => self.back(frames),
             Command::Until(stop) => self.search(stop),
-            Command::PreviousImpact => match Back::begin(&mut self.course) {
-                Some(mut back) => {
-                    let way = back.look(&mut self.course);
-                    self.head_for(Goal::Impact(back));
-                    self.follow(way);
-                }
-                None => self.say(Said::NoEarlierImpact),
-            },
+            Command::PreviousImpact => self.back_to_impact(),
             Command::Oldest => self.back(u64::MAX),
             Command::Newest if self.course.is_past() => self.go_to_frame(self.course.newest().0),
             Command::Newest => self.say(Said::Newest),
             Command::Goto(t) => self.go_to_time(t),
+            Command::GotoEvent { number, time } => self.go_to_event(number, time),
+            Command::Around { path, sphere } => self.look_around(path, sphere),
+            Command::TakeAway(taker) => self.hand_over(taker),
+            Command::Record => self.record(),
+            Command::EndRecording(taker) => {
+                self.wants_tape = false;
+                let _ = taker.send(self.course.end_tape()); // perhaps no longer waited for
+            }
             Command::Speed(wanted) => self.pace = Pace::new(wanted, self.now(), self.time()),
             Command::Settings(settings) => self.solve_with(settings),
             #[cfg(debug_assertions)]
@@ -188,22 +231,12 @@ impl Runner {
         }
     }
 
-    fn head_for(&mut self, goal: Goal) {
-        self.goal = goal;
-        self.pace = Pace::new(self.pace.wanted(), self.now(), self.time());
-    }
-
-    fn say(&mut self, said: Said) {
+    pub(super) fn say(&mut self, said: Said) {
         let count = self.said.as_ref().map_or(0, |(count, _)| *count);
         self.said = Some((count + 1, said));
     }
 
-    /// The frame shown, or the one that the run is on its way to.
-    fn frame_ahead(&self) -> u64 {
-        if let Goal::Frame(frame) = self.goal { frame } else { self.course.frame() }
-    }
-
-    fn time(&self) -> f64 {
+    pub(super) fn time(&self) -> f64 {
         self.course.time()
     }
 
@@ -215,21 +248,48 @@ impl Runner {
 
     /// Has the run go on from the frame shown, and says that the later ones are dropped.
     fn branch(&mut self) {
+        let recorded = self.course.taped().is_some();
         let frames = self.cut();
-        if frames > 0 {
+        if recorded && self.course.taped().is_none() {
+            self.say(Said::RecordingLost);
+        } else if frames > 0 {
             let t = self.time();
             self.say(Said::Dropped { frames, t });
         }
     }
 
+    /// Hands the run over where it is, or at the end of the frame in progress.
+    fn hand_over(&mut self, taker: Sender<TakenAway>) {
+        self.takers.push(taker);
+        if self.course.is_whole() || self.course.stall().is_some() {
+            self.give_takers();
+        } else if self.goal.is_nowhere() {
+            self.head_for(Goal::Frame(self.course.frame() + 1));
+        }
+    }
+
+    fn give_takers(&mut self) {
+        if self.takers.is_empty() {
+            return;
+        }
+        let (scene, to_the_bit) = self.course.going_on().unzip();
+        let snapshot = Arc::new(Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall()));
+        let taken = TakenAway { scene, to_the_bit: to_the_bit == Some(true), snapshot };
+        for taker in self.takers.drain(..) {
+            let _ = taker.send(taken.clone()); // perhaps no longer waited for
+        }
+    }
+
     /// Drops the frames after the one shown, with what they have told; how many they were.
-    fn cut(&mut self) -> u64 {
+    pub(super) fn cut(&mut self) -> u64 {
         if !self.course.is_past() {
             return 0;
         }
         let frames = self.course.branch();
         let run = self.course.simulation();
         self.ticks.cut(run.time(), run.tallies().impacts);
+        self.log.cut(self.course.events());
+        self.around.cut(Some(self.course.frame()));
         self.alarm = until(both(&self.alarm, self.watch.alarm()), run.time());
         self.watch = Watch::new(run);
         self.events.clear();
@@ -240,75 +300,55 @@ impl Runner {
     fn solve_with(&mut self, settings: Settings) {
         self.branch();
         let waits = self.course.set(settings);
+        self.note_events();
         self.moved = true;
         if waits && self.goal.is_nowhere() {
             self.head_for(Goal::Frame(self.course.frame() + 1));
         }
     }
 
-    fn begin_again(&mut self, settings: Settings) {
+    pub(super) fn begin_again(&mut self, settings: Settings) {
         let on = matches!(self.goal, Goal::On);
-        self.restart(Job { settings, ..self.course.job().clone() });
+        let job = self.course.job();
+        let settings = job.recording.as_ref().map_or(settings, |recording| recording.settings);
+        self.restart(Job { settings, ..job.clone() });
         self.head_for(if on { Goal::On } else { Goal::Nowhere });
     }
 
     fn restart(&mut self, job: Job) {
         self.ticks = Ticks::new(job.stage.duration);
+        self.log = EventLog::default();
         self.course = Course::new(job);
+        self.wants_tape = false;
         self.watch = Watch::new(self.course.simulation());
         self.alarm = Alarm::default();
         self.events.clear();
+        self.around.cut(None);
+        self.around.pass(self.course.simulation());
+        self.course.go_frame_by_frame(self.around.follows());
+        self.note_events();
         self.cpu = 0.0;
         self.moved = true;
+        self.tell_found();
     }
 
-    fn back(&mut self, frames: u64) {
-        let (ahead, (oldest, t, _)) = (self.frame_ahead(), self.course.oldest());
-        if ahead <= oldest {
-            self.say(if oldest == 0 { Said::Start } else { Said::Oldest { t } });
-            self.head_for(Goal::Nowhere);
-        } else {
-            self.go_to_frame(ahead.saturating_sub(frames).max(oldest));
+    /// Takes note of what has happened for the first time since the last call, and tells it.
+    pub(super) fn note_events(&mut self) -> Vec<Contact> {
+        let events = self.course.take_events();
+        let course = &self.course;
+        if course.is_past() {
+            return events;
         }
-    }
-
-    /// To the end of a frame, back or on.
-    fn go_to_frame(&mut self, frame: u64) {
-        self.course.set_out(frame);
-        self.head_for(Goal::Frame(frame));
-        self.arrive();
-    }
-
-    /// To the first frame that ends at or after `t`, s; a time before all that is kept is reached from the start.
-    fn go_to_time(&mut self, t: f64) {
-        let (oldest, from, _) = self.course.oldest();
-        if t < from && oldest > 0 {
-            self.begin_again(self.course.settings());
+        let impacts = events.iter().filter(|event| event.class == Class::Collide);
+        let before = course.events() - events.len() as u64;
+        if before < self.log.total() {
+            // another method begins where a run does: what the one before made of that is forgotten
+            self.log.cut(before);
+            self.ticks.cut(course.time(), course.impacts() - impacts.clone().count() as u64);
         }
-        self.course.set_out_for(t);
-        self.head_for(Goal::Time(t));
-        self.arrive();
-    }
-
-    /// Goes on until something comes.
-    fn search(&mut self, stop: Stop) {
-        for event in self.course.take_events() {
-            self.count(&event); // what happened at load
-        }
-        let search = Search::new(stop, &self.course);
-        match stop {
-            Stop::Time(t) if t <= search.from.1 => {
-                self.say(Said::Past { t });
-                self.head_for(Goal::Nowhere);
-            }
-            _ => self.head_for(Goal::Until(Box::new(search))),
-        }
-    }
-
-    fn count(&mut self, event: &Contact) {
-        if event.class == Class::Collide && !self.course.is_past() {
-            self.ticks.add(event.time);
-        }
+        impacts.for_each(|event| self.ticks.add(event.time));
+        events.iter().for_each(|event| self.log.add(event));
+        events
     }
 
     /// Advances for about [`SLICE`], or to the goal, or up to what is due.
@@ -316,7 +356,7 @@ impl Runner {
         let (start, worked) = (self.now(), measure::thread_cpu());
         let until = match self.goal {
             Goal::On => Until::Time(self.pace.target(start, self.course.time())),
-            _ => self.goal.until(),
+            _ => self.goal.until(self.course.time()),
         };
         while !self.goal.is_nowhere() && self.now() - start < SLICE {
             if matches!((&self.goal, until), (Goal::On, Until::Time(t)) if self.time() >= t) {
@@ -345,79 +385,26 @@ impl Runner {
         if std::mem::take(&mut self.frame_is_over) {
             self.events.clear();
         }
-        for event in self.course.take_events() {
-            self.count(&event);
-            self.events.push(event);
-        }
+        self.events.extend(self.course.take_passed());
+        let events = self.note_events();
+        self.events.extend(events);
         match progress {
             Progress::Reached => {
+                self.give_takers();
+                self.begin_tape();
                 self.frame_is_over = true;
+                self.around.pass(self.course.simulation());
                 self.arrive();
+                self.tell_found();
             }
             Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
             Progress::Yielded => {}
-            Progress::Stalled(_) => self.goal = Goal::Nowhere,
-        }
-    }
-
-    /// A frame, or the time asked for, is complete: is that where the run was going?
-    fn arrive(&mut self) {
-        let course = &mut self.course;
-        let frame = course.frame();
-        let there = match &mut self.goal {
-            Goal::Nowhere | Goal::On => false,
-            Goal::Frame(target) => frame > *target || course.is_at(*target),
-            Goal::Return(target) if frame > *target || course.is_at(*target) => {
-                self.cut();
-                true
+            Progress::Stalled(_) => {
+                self.give_takers();
+                self.goal = Goal::Nowhere;
+                self.queue.clear();
             }
-            Goal::Return(_) => false,
-            Goal::Time(t) => course.time() >= *t && course.is_at(frame),
-            Goal::Impact(back) => {
-                let way = back.look(course);
-                return self.follow(way);
-            }
-            Goal::Until(_) => return self.look_for_stop(),
-        };
-        if there {
-            self.stop_here();
         }
-    }
-
-    /// What comes next on the way back to an impact.
-    fn follow(&mut self, way: Way) {
-        match (way, &self.goal) {
-            (Way::There, _) => self.stop_here(),
-            (Way::InVain, Goal::Impact(Back { from, .. })) => {
-                self.go_to_frame(*from);
-                self.say(Said::NoEarlierImpact);
-            }
-            _ => {}
-        }
-    }
-
-    fn stop_here(&mut self) {
-        self.goal = Goal::Nowhere;
-        self.moved = true;
-    }
-
-    /// Whether what was waited for has come, or the scene's duration is over without it: then back to where it began.
-    fn look_for_stop(&mut self) {
-        let Goal::Until(search) = &mut self.goal else { return };
-        let run = self.course.simulation();
-        let (t, stop, within) = (run.time(), search.stop, search.within);
-        if let Some(met) = search.met(run, &self.events) {
-            self.stop_here();
-            return self.say(Said::Met { stop, met, t });
-        }
-        let ((frame, from), in_the_past) = (search.from, search.in_the_past);
-        if t < from + within {
-            return;
-        }
-        self.say(Said::Nothing { stop, from, within });
-        self.course.set_out(frame);
-        self.head_for(if in_the_past { Goal::Frame(frame) } else { Goal::Return(frame) });
-        self.arrive();
     }
 
     /// A report of the run at the end of its last frame.
@@ -437,6 +424,7 @@ impl Runner {
         Report {
             snapshot: Arc::clone(&self.snapshot),
             ticks: Arc::new(self.ticks.clone()),
+            log: Arc::new(self.log.clone()),
             activity: match (&self.goal, self.course.stall()) {
                 (Goal::Nowhere, Some(_)) => Activity::Stalled,
                 (Goal::Nowhere, None) => Activity::Paused,
@@ -446,14 +434,17 @@ impl Runner {
             reached: self.pace.reached(),
             obeyed: self.obeyed,
             settings: self.course.settings(),
+            recorded: self.course.taped().map(|(frames, _)| frames),
             kept: self.course.kept(),
+            trail: self.around.trail(self.course.frame()),
+            ahead: self.around.ahead(&self.course),
             said: self.said,
             cpu: self.cpu,
             panic: None,
         }
     }
 
-    fn now(&self) -> f64 {
+    pub(super) fn now(&self) -> f64 {
         self.clock.elapsed().as_secs_f64()
     }
 }

@@ -7,7 +7,13 @@ use crate::program::{Ran, command};
 
 /// What is told when these lines come, all at once, through a pipe.
 fn talk(scene: &str, lines: &str) -> Ran {
+    talk_in(std::path::Path::new("."), scene, lines)
+}
+
+/// The same in a folder.
+fn talk_in(folder: &std::path::Path, scene: &str, lines: &str) -> Ran {
     let mut command = command(&["--text", "--paused", scene]);
+    command.current_dir(folder);
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the built binary");
     let mut stdin = child.stdin.take().expect("a pipe");
@@ -45,6 +51,80 @@ fn it_runs_until_what_is_waited_for_and_steps_back() {
         said.lines().filter_map(|line| line.strip_prefix("At ")?.strip_suffix(" seconds.")?.parse().ok()).collect();
     assert!(times.len() >= 3 && times[1] > 1.0 && times[2] < times[1], "{said}");
     assert!(said.contains("An order is a line of its own"), "{said}");
+}
+
+#[test]
+fn it_goes_back_from_collision_to_collision_and_to_both_ends() {
+    let said = talk("paper-0", "c\nc\n,\nC\nC\ng\nG\n:goto 0.5\nq\n").succeeds().out;
+    let times: Vec<f64> =
+        said.lines().filter_map(|line| line.strip_prefix("At ")?.strip_suffix(" seconds.")?.parse().ok()).collect();
+    let [start, first, second, before, again, oldest, newest, gone_to] = times[..] else { panic!("{said}") };
+    assert!(start == 0.0 && first < second && before < second && before > first, "{said}");
+    assert_eq!((again, oldest, newest), (first, 0.0, second), "{said}");
+    assert_eq!(said.matches("There is no collision before this one.").count(), 1, "{said}");
+    assert_eq!(gone_to, 0.5, "{said}");
+}
+
+#[test]
+fn it_lists_what_has_happened_as_far_as_it_is_wanted() {
+    let said = talk("paper-3", "log 0 1\n:goto 3\nlog\nlog wall 0\nlog rest\nlog bounce\nL\nq\n").succeeds().out;
+    assert!(said.contains("Nothing of this has happened."), "{said}");
+    let listed = |text: &str| said.lines().filter(|line| line.contains(text) && line.contains(". At ")).count();
+    assert!(listed("spheres 0 and 1 collide") >= 2, "in both whole lists: {said}");
+    assert_eq!(said.matches("On the way").count(), 1, "what was answered before is not said again: {said}");
+    assert_eq!(listed("hits wall 0") % 3, 0, "in both whole lists and in the short one: {said}");
+    assert!(said.contains("bounce is not allowed: a filter takes spheres"), "{said}");
+}
+
+#[test]
+fn a_state_that_is_taken_away_goes_on_to_the_end_that_the_run_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said = talk_in(folder.path(), "paper-3", ":goto 2\ne\nq\n").succeeds().out;
+    assert!(said.contains("paper-3-1.ron, which goes on from t = 2.0"), "{said}");
+    let file = folder.path().join("paper-3-1.ron");
+    let file = file.to_str().expect("a plain path");
+    let end = |scene: &str| {
+        let line = command(&["run", scene, "--until", "9.5"]).output().expect("the built binary");
+        let line = Ran::from(line).succeeds().out;
+        line.split_whitespace().find(|word| word.starts_with("hash=")).map(str::to_owned)
+    };
+    assert!(end(file).is_some());
+    assert_eq!(end(file), end("paper-3"));
+    let rows = Ran::from(
+        command(&["run", file, "--states", "-", "--every", "1", "--until", "4"]).output().expect("the built binary"),
+    );
+    let rows = rows.succeeds().out;
+    let times: Vec<&str> = rows.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(times, ["3.0", "3.0", "4.0", "4.0"], "nothing is told of what was before: {rows}");
+    for arguments in [&["measure", file][..], &["run", file, "--certify"], &["run", file, "--accuracy", "1e-6"]] {
+        let ran = Ran::from(command(arguments).output().expect("the built binary"));
+        assert!(ran.err.contains("counts errors from a scene's start, and this one goes on from t = 2.0"), "{ran:?}");
+    }
+}
+
+#[test]
+fn a_recording_with_changes_is_replayed_and_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said =
+        talk_in(folder.path(), "paper-3", ":goto 0.5\nE\n:goto 1\nmm\n:goto 1.5\ns\n:goto 2\nq\n").succeeds().out;
+    assert!(said.contains("Recording from t = 0.5 s on."), "{said}");
+    let file = folder.path().join("paper-3-1.carom");
+    let file = file.to_str().expect("a plain path");
+    let ran = |arguments: &[&str]| Ran::from(command(arguments).output().expect("the built binary"));
+    let replayed = ran(&["replay", file]).succeeds().out;
+    assert!(replayed.trim().ends_with("same"), "written at the end of the talk, and the same: {replayed}");
+    let told = talk(file, ":goto 9\n:hash\nq\n").succeeds().out;
+    assert!(told.contains("all of it as recorded."), "{told}");
+    let hash = |text: &str| text.split_whitespace().find(|word| word.starts_with("hash=")).map(str::to_owned);
+    assert_eq!(hash(&told), hash(&replayed));
+    assert!(ran(&["--text", "--paused", file, "--dt", "0.1"]).fails_with(2).err.contains("its own settings"));
+    assert!(ran(&["--text", file]).fails_with(2).err.contains("with --paused only"));
+    let mut bytes = std::fs::read(file).expect("it is there");
+    let last = bytes.len() - 8 * 40 + 2;
+    bytes[last] ^= 0x10;
+    std::fs::write(file, bytes).expect("written");
+    assert!(ran(&["replay", file]).fails_with(1).err.contains("differs"));
+    assert!(talk(file, ":goto 9\nq\n").succeeds().out.contains("differs, at t = "));
 }
 
 #[test]

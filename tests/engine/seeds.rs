@@ -57,10 +57,11 @@ fn forward_adds_the_forces_to_the_momentum_then_moves_by_the_new_velocity() {
 #[test]
 fn a_transient_force_is_cleared_as_soon_as_the_update_is_done() {
     let mut run = Simulation::new(&on_floor(DVec3::ZERO, dvec3(0.0, -2.0, 0.0)), paper(0.01, 1e-3));
-    assert_eq!(run.transient(), [dvec3(0.0, 3.6, 0.0)]);
+    let impulses = |run: &Simulation| run.transient()[..1].to_vec(); // the last row is the watchdog's
+    assert_eq!(impulses(&run), [dvec3(0.0, 3.6, 0.0)]);
     frames(&mut run, 1);
     let v = run.state().v;
-    assert_eq!(run.transient(), [DVec3::ZERO]);
+    assert_eq!(impulses(&run), [DVec3::ZERO]);
     frames(&mut run, 3);
     assert_eq!(run.state().v, v);
 }

@@ -8,7 +8,8 @@ use std::{
 use carom::{
     app::{Action, App, Code, Effect, Input, Key, Keymap, Setup, table},
     physics::{Progress, Settings, Simulation, Until},
-    scene,
+    recording::Recording,
+    scene::{self, Opened},
     snapshot::{Class, Snapshot, Stage},
     view::{Colors, Inks, Marker, Views},
     worker::{Activity, Bodies, Command, Job, Notify, Stop, Worker},
@@ -29,6 +30,8 @@ fn tell(sender: mpsc::Sender<()>) -> Notify {
 pub(crate) struct User {
     pub(crate) app: App,
     news: mpsc::Receiver<()>,
+    /// Where it writes files.
+    pub(crate) folder: tempfile::TempDir,
     pub(crate) screen: Buffer,
 }
 
@@ -41,11 +44,26 @@ impl User {
     pub(crate) fn bound(scene: &str, paused: bool, keymap: Keymap) -> User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
+        User::set_up(opened, settings, paused, (keymap, None))
+    }
+
+    /// Paused on a recording.
+    pub(crate) fn replays(recording: Recording) -> User {
+        let scene = scene::parse(&recording.scene, &recording.key).expect("the scene loads");
+        let opened = Opened { key: recording.key.clone(), path: None, scene };
+        User::set_up(opened, recording.settings, true, (Keymap::default(), Some(recording)))
+    }
+
+    fn set_up(opened: Opened, settings: Settings, paused: bool, more: (Keymap, Option<Recording>)) -> User {
+        let (keymap, recording) = more;
         let inks = Inks::default();
-        let setup = Setup { opened, settings, paused, marker: Marker::Ascii, colors: Colors::Ansi16, inks, keymap };
+        let folder = tempfile::tempdir().expect("a folder");
+        let (marker, colors) = (Marker::Ascii, Colors::Ansi16);
+        let setup =
+            Setup { opened, settings, paused, marker, colors, inks, keymap, recording, folder: folder.path().into() };
         let (sender, news) = mpsc::channel();
         let app = App::new(setup, tell(sender)).expect("there is a thread to be had");
-        let mut user = User { app, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };
+        let mut user = User { app, folder, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };
         user.look();
         user
     }
@@ -393,7 +411,7 @@ fn worker(scene: &str) -> (Worker, mpsc::Receiver<()>, Job) {
     let opened = scene::open(scene).expect("the scene loads");
     let settings = Settings { dt: 1e-3, ..opened.scene.solver };
     let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
-    let job = Job { stage, scene: Arc::new(opened.scene), settings };
+    let job = Job { stage, scene: Arc::new(opened.scene), settings, recording: None };
     let (sender, news) = mpsc::channel();
     let worker = Worker::start(job.clone(), 1.0, tell(sender)).expect("a thread");
     (worker, news, job)

@@ -6,7 +6,7 @@ use carom::{
     explain::{self, Card},
     physics::{Method, RestReason, Settings, Simulation, Until},
     scene,
-    snapshot::{Class, Kind, Snapshot, Stage},
+    snapshot::{Class, Contact, Kind, Snapshot, Stage},
     view::CardView,
 };
 use glam::dvec3;
@@ -201,6 +201,29 @@ fn every_impact_of_exact_is_a_root_of_its_polynomial_and_its_bodies_approach_the
         }
         assert!(impacts > 3, "{name}: {impacts}");
     }
+}
+
+#[test]
+fn a_snapshot_finds_for_each_contact_the_first_approach_that_led_there() {
+    let mut found = 0;
+    for (name, until) in [("galton", 2.0), ("newtons-cradle", 2.0), ("elastic-666", 0.3)] {
+        let opened = scene::open(name).expect("built in");
+        let stage = Arc::new(Stage::of(name, &opened.scene));
+        // frames of many impacts
+        let mut run = Simulation::new(&opened.scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-3 });
+        run.explain(true);
+        while run.time() < until {
+            run.advance(Until::Frame, u64::MAX);
+            let led_to = |contact: &Contact| {
+                run.approaches().iter().find(|one| one.key == contact.key() && one.time == contact.time).copied()
+            };
+            let expected: Vec<_> = run.contacts().iter().take(1000).map(led_to).collect();
+            let snapshot = Snapshot::of(&stage, &run, None);
+            assert_eq!(snapshot.approaches, expected, "{name}");
+            found += expected.into_iter().flatten().count();
+        }
+    }
+    assert!(found > 100, "{found}");
 }
 
 #[test]

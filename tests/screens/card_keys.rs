@@ -13,7 +13,7 @@ fn the_card_of_a_contact_opens_moves_and_closes_and_the_inspector_can_be_hidden(
     assert!(user.text().contains("contact"), "it stays open while one steps\n{}", user.text());
     user.type_in("\x1b");
     assert!(!user.text().contains("Esc closes"), "{}", user.text());
-    let shown = |user: &User| (user.text().contains("none selected"), user.text().contains("Esc closes"));
+    let shown = |user: &User| (user.text().contains("sphere #0"), user.text().contains("Esc closes"));
     let mut seen = Vec::new();
     for _ in 0..3 {
         user.type_in("i");

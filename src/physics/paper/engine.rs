@@ -107,11 +107,15 @@ impl Engine for Paper {
         for kick in self.pending().list() {
             impulses[kick.sphere] = kick.impulse;
         }
+        impulses.push(self.watch.row());
         impulses
     }
 
     fn continue_with(&mut self, transient: &[DVec3]) {
-        self.next.replace_impulses(transient);
+        // a state that was written down without its last row goes on as well, and is given up later, if it stalls
+        let (impulses, count) = transient.split_at(transient.len().min(self.end.x.len()));
+        self.next.replace_impulses(impulses);
+        self.watch = count.first().map_or(self.watch, |row| Watch::of_row(*row));
     }
 
     fn hand_over(&self, model: &Model) -> State {

@@ -1,5 +1,7 @@
 //! The watchdog's memory: whether frames go on bringing time.
 
+use glam::DVec3;
+
 use crate::physics::contact::Class;
 use crate::physics::log::Log;
 
@@ -26,6 +28,16 @@ impl Watch {
     /// Nothing counted yet at this time, s.
     pub(super) fn at(time: f64) -> Watch {
         Watch { since: time, cut: 0, owed: 0.0, stuck: false }
+    }
+
+    /// What it has counted, as a row of a run's transient.
+    pub(super) fn row(&self) -> DVec3 {
+        DVec3::new(self.since, self.cut as f64, self.owed)
+    }
+
+    /// The count that a row tells of.
+    pub(super) fn of_row(row: DVec3) -> Watch {
+        Watch { since: row.x, cut: row.y as u64, owed: row.z, stuck: false }
     }
 
     /// Counts a frame that brought this much time, s, and was or was not cut short by a search.

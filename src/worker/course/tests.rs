@@ -29,7 +29,12 @@ const SCENES: [(&str, u64, u64); 9] = [
 fn job(name: &str, method: Method) -> Job {
     let opened = scene::open(name).expect("built in");
     let settings = Settings { method, ..opened.scene.solver };
-    Job { stage: Arc::new(Stage::of(&opened.key, &opened.scene)), scene: Arc::new(opened.scene), settings }
+    Job {
+        stage: Arc::new(Stage::of(&opened.key, &opened.scene)),
+        scene: Arc::new(opened.scene),
+        settings,
+        recording: None,
+    }
 }
 
 /// A course, and what was seen at the end of each of its frames.

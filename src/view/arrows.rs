@@ -1,0 +1,111 @@
+//! Impulses and support forces, as arrows to a scale that the view's label states.
+
+use glam::DVec3;
+
+use super::{
+    canvas::{Ink, Layer},
+    pane::View,
+    shapes,
+    sheet::Sheet,
+};
+use crate::explain;
+use crate::format;
+use crate::snapshot::{Class, Contact, Kind, Snapshot};
+
+/// Part of the view's width that the longest arrow takes at most.
+const LONGEST: f64 = 0.2;
+
+/// Length of an arrow head's barbs, dots; shorter arrows have none.
+const BARB: f64 = 3.0;
+
+/// What an arrow stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// The impulse of an impact, N s.
+    Impulse,
+    /// The support force of a contact at rest, N.
+    Force,
+}
+
+impl Quantity {
+    /// Whether it is drawn.
+    pub(super) fn is_shown(self, view: &View) -> bool {
+        let overlays = view.screen.view_settings.overlays;
+        match self {
+            Quantity::Impulse => overlays.impulses,
+            Quantity::Force => overlays.forces,
+        }
+    }
+
+    /// How much of it a contact has.
+    fn of(self, snapshot: &Snapshot, contact: &Contact) -> Option<f64> {
+        let amount = match self {
+            Quantity::Impulse => (contact.class == Class::Collide).then_some(contact.impulse),
+            Quantity::Force => explain::support_force(snapshot, contact),
+        };
+        amount.filter(|amount| amount.is_finite() && *amount > 0.0)
+    }
+
+    /// What an arrow of the length of a metre stands for, if there is an arrow: so much that the longest takes a fifth of
+    /// the width, to a round number, so that arrows of different frames can be compared.
+    fn per_meter(self, view: &View) -> Option<f64> {
+        let snapshot = view.screen.snapshot;
+        let most = snapshot.contacts.iter().filter_map(|contact| self.of(snapshot, contact)).fold(0.0, f64::max);
+        let least = most / (view.camera.span(view.area).x * LONGEST);
+        // 1/round_down(1/x) is x rounded up to a round number
+        (least.is_finite() && least > 0.0).then(|| 1.0 / format::round_down(1.0 / least))
+    }
+
+    /// The scale for the view's label, if it is shown and there is an arrow.
+    pub(super) fn label(self, view: &View) -> Option<String> {
+        let per_meter = self.per_meter(view).filter(|_| self.is_shown(view))?;
+        let (sign, unit) = match self {
+            Quantity::Impulse => ("J", "N s"),
+            Quantity::Force => ("F", "N"),
+        };
+        Some(format!("  {sign} {} {unit}/m", format::setting(per_meter)))
+    }
+
+    /// Draws an arrow on each sphere that is pushed, along the contact's normal.
+    pub(super) fn draw(self, view: &mut View, sheet: &Sheet) {
+        let Some(per_meter) = self.per_meter(view).filter(|_| self.is_shown(view)) else { return };
+        let style = match self {
+            Quantity::Impulse => sheet.palette.alarm(),
+            Quantity::Force => sheet.palette.notice(),
+        };
+        let ink = Ink::new(Layer::Arrow, style);
+        for contact in &view.screen.snapshot.contacts {
+            if let Some(amount) = self.of(view.screen.snapshot, contact) {
+                draw_pushes(view, contact, amount / per_meter, ink);
+            }
+        }
+    }
+}
+
+/// Arrows of so many metres along a contact's normal, outside the spheres that it pushes.
+pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, ink: Ink) {
+    let snapshot = view.screen.snapshot;
+    let other = (contact.kind == Kind::Pair).then_some((contact.b, -contact.normal));
+    for (sphere, normal) in [(contact.a, contact.normal)].into_iter().chain(other) {
+        let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { continue };
+        let rim = *x + normal * *radius;
+        draw_arrow(view, rim, rim + normal * length, ink);
+    }
+}
+
+/// A line from one point of the world to another, with two barbs at 45° to it.
+pub(super) fn draw_arrow(view: &mut View, from: DVec3, to: DVec3, ink: Ink) {
+    let (tail, tip) = (view.project(from), view.project(to));
+    if tail == tip {
+        return;
+    }
+    shapes::line(&mut view.canvas, tail, tip, ink);
+    let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
+    let length = (dx * dx + dy * dy).sqrt();
+    if length.is_nan() || length < BARB + 1.0 {
+        return;
+    }
+    let (ux, uy) = (dx / length * BARB * 0.7, dy / length * BARB * 0.7);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), ink);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), ink);
+}

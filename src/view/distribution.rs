@@ -1,0 +1,151 @@
+//! How many spheres are how fast, beside Maxwell's distribution, or where across the view: a chart for some spheres.
+
+use ratatui::layout::Rect;
+
+use super::{
+    canvas::{Canvas, Ink, Layer},
+    column::Column,
+    sheet::Sheet,
+};
+use crate::format;
+use crate::snapshot::Snapshot;
+
+/// From so many spheres on there is a distribution of speeds to be seen, and one of places.
+const SPEEDS: usize = 50;
+/// See [`SPEEDS`].
+const PLACES: usize = 14;
+
+/// Rows of the chart.
+const CHART: u16 = 7;
+
+/// Rows that must be left under it.
+const UNDER: usize = 20;
+
+/// Bars, at most one per column.
+const BARS: usize = 28;
+
+/// Speeds are shown up to so many times the speed by which Maxwell's distribution is scaled: beyond is a ten-thousandth.
+const REACH: f64 = 4.5;
+
+/// What is counted.
+#[derive(Debug, Clone, PartialEq)]
+struct Counts {
+    /// Spheres in each bar.
+    bars: Vec<u64>,
+    /// Where the first bar begins, and where the last ends.
+    ends: [f64; 2],
+    /// How many Maxwell's distribution has in each, where speeds are counted.
+    maxwell: Option<Vec<f64>>,
+}
+
+/// Draws the chart where there are spheres enough, and room; whether it did. Without gravity it is of speeds, which in a gas become
+/// Maxwell's; with gravity of places across, which on a Galton board become a bell.
+pub(super) fn draw(snapshot: &Snapshot, column: &mut Column) -> bool {
+    let flies = snapshot.stage.gravity == glam::DVec3::ZERO;
+    let least = if flies { SPEEDS } else { PLACES };
+    if snapshot.x.len() < least || column.rows() < usize::from(CHART) + UNDER {
+        return false;
+    }
+    let bars = BARS.min(column.width());
+    let (heading, counts, unit) = match flies {
+        true => ("speeds", speeds(snapshot, bars), "m/s"),
+        false => ("places", places(snapshot, bars / 2), "m"),
+    };
+    let Some(counts) = counts else { return false };
+    column.heading(heading, if counts.maxwell.is_some() { "line: Maxwell's" } else { "along x" });
+    let area = column.take(CHART);
+    draw_chart(&counts, area, column.sheet_mut());
+    let ends = counts.ends.map(|end| format!("{} {unit}", format::setting(end)));
+    let room = column.width().saturating_sub(ends[0].len());
+    let faint = column.sheet().palette.faint();
+    column.row(&format!("{}{:>room$}", ends[0], ends[1]), faint);
+    column.skip();
+    true
+}
+
+/// How many spheres are how fast. Where masses differ, the speeds are those that the mean mass would have with as much energy.
+fn speeds(snapshot: &Snapshot, bars: usize) -> Option<Counts> {
+    let masses = &snapshot.stage.masses;
+    let mean = masses.iter().sum::<f64>() / masses.len() as f64;
+    let squares: Vec<f64> = snapshot.v.iter().zip(masses).map(|(v, mass)| v.length_squared() * mass / mean).collect();
+    // ⟨v²⟩ = 3 a²
+    let scale = (squares.iter().sum::<f64>() / (3.0 * squares.len() as f64)).sqrt();
+    let most = REACH * scale;
+    let counted = count(squares.into_iter().map(f64::sqrt), [0.0, most], bars)?;
+    let width = most / bars as f64;
+    let expected = |bar: usize| {
+        let v = (bar as f64 + 0.5) * width / scale;
+        // √(2/π) v² e^(−v²/2) of a sphere in units of the scale
+        0.797_884_560_802_865_4 * v * v * falling(0.5 * v * v) * width / scale * snapshot.v.len() as f64
+    };
+    Some(Counts { maxwell: Some((0..bars).map(expected).collect()), ..counted })
+}
+
+/// How many spheres are where along x, in the scene's view.
+fn places(snapshot: &Snapshot, bars: usize) -> Option<Counts> {
+    let view = &snapshot.stage.view;
+    count(snapshot.x.iter().map(|x| x.x), [view.min.x, view.max.x], bars)
+}
+
+/// Values in bars of equal width; those beyond the ends, and what is no number, in none.
+fn count(values: impl Iterator<Item = f64>, ends: [f64; 2], bars: usize) -> Option<Counts> {
+    let width = (ends[1] - ends[0]) / bars as f64;
+    if !(width.is_finite() && width > 0.0) {
+        return None;
+    }
+    let mut counted = vec![0; bars];
+    for value in values.filter(|value| (ends[0]..ends[1]).contains(value)) {
+        counted[(((value - ends[0]) / width) as usize).min(bars - 1)] += 1;
+    }
+    Some(Counts { bars: counted, ends, maxwell: None })
+}
+
+/// e^(−x) for x from 0 on, by its series: the same on every machine.
+fn falling(x: f64) -> f64 {
+    let (mut sum, mut term) = (1.0, 1.0);
+    for n in 1..=60 {
+        term *= x / f64::from(n);
+        sum += term;
+    }
+    1.0 / sum
+}
+
+fn draw_chart(counts: &Counts, area: Rect, sheet: &mut Sheet) {
+    let mut canvas = Canvas::new(area);
+    let expected = counts.maxwell.as_deref().unwrap_or(&[]);
+    let most = counts.bars.iter().map(|count| *count as f64).chain(expected.iter().copied()).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return;
+    }
+    let (bars, width, height) = (counts.bars.len() as i32, canvas.width(), canvas.height());
+    let bar_ink = Ink::new(Layer::Wall, sheet.palette.heading());
+    let line_ink = Ink::new(Layer::Selected, sheet.palette.alarm());
+    for x in 0..width {
+        let bar = (x * bars / width) as usize;
+        let top = (counts.bars[bar] as f64 / most * f64::from(height)).round() as i32;
+        (height - top..height).for_each(|y| canvas.dot(x, y, bar_ink));
+        if let Some(expected) = expected.get(bar) {
+            canvas.dot(x, ((1.0 - expected / most) * f64::from(height - 1)).round() as i32, line_ink);
+        }
+    }
+    canvas.paint(area, sheet);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_value_within_the_ends_is_in_its_bar() {
+        let counted = count([0.0, 0.99, 1.0, 3.999, 4.0, -0.1, f64::NAN].into_iter(), [0.0, 4.0], 4).expect("bars");
+        assert_eq!(counted.bars, [2, 1, 0, 1]);
+        assert_eq!(count([1.0].into_iter(), [2.0, 2.0], 4), None, "a view without a width");
+    }
+
+    #[test]
+    fn a_falling_exponential_is_what_it_should_be() {
+        for (x, value) in [(0.0, 1.0), (1.0, 0.367_879_441_171_442_3), (10.0, 4.539_992_976_248_485e-5)] {
+            assert!((falling(x) / value - 1.0).abs() < 1e-13, "{x}: {}", falling(x)); // rounding of sixty sums
+        }
+    }
+}
