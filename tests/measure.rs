@@ -8,6 +8,8 @@ mod certified;
 mod command;
 #[path = "measure/figures.rs"]
 mod figures;
+#[path = "measure/judged.rs"]
+mod judged;
 #[allow(dead_code)] // each test crate uses what it needs
 #[path = "cli/program.rs"]
 mod program;
@@ -16,6 +18,8 @@ mod program;
 mod pty;
 #[path = "support/random.rs"]
 mod random;
+#[path = "measure/student.rs"]
+mod student;
 mod support;
 #[path = "support/watch.rs"]
 mod watch;

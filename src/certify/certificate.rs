@@ -2,6 +2,7 @@
 
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::growth::Growth;
 use super::shadow::Shadow;
 use crate::physics::{Contact, Progress, Simulation, Until};
 use crate::scene::{Method, Scene, Settings};
@@ -20,6 +21,7 @@ pub struct Certificate {
     pub events: u64,
     /// Pairs of bodies that were looked at to show that no other contact comes.
     pub looks: u64,
+    growth: Growth,
     places: Vec<[Double; 3]>,
 }
 
@@ -27,6 +29,12 @@ impl Certificate {
     /// Where the shadow run has sphere `i` at `until`, m.
     pub fn place(&self, i: usize) -> Option<[Double; 3]> {
         self.places.get(i).copied()
+    }
+
+    /// Until when the error is at most `asked` (m), s: `until`, if it never is larger; else the last moment before which it
+    /// cannot have passed `asked`, or half of it, since it is kept by powers of two.
+    pub fn within(&self, asked: f64) -> f64 {
+        if self.error <= asked { self.until } else { self.growth.first(asked).min(self.until) }
     }
 }
 
@@ -98,7 +106,7 @@ impl Pursuit {
     fn nothing(self) -> Certificate {
         let ending = Some(Ending { time: 0.0, bodies: None, cause: Cause::Spent });
         let places = self.shadow.bodies.iter().map(|body| body.now.x.components()).collect();
-        Certificate { until: 0.0, error: 0.0, ending, events: 0, looks: 0, places }
+        Certificate { until: 0.0, error: 0.0, ending, events: 0, looks: 0, growth: Growth::default(), places }
     }
 
     fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
@@ -117,11 +125,13 @@ impl Pursuit {
         let known = |doubt: &Ending| ending.as_ref().is_some_and(|ending| ending.bodies == doubt.bodies);
         let ending = doubt.filter(|doubt| !known(doubt)).or(ending);
         let t = Double::from(until);
+        let mut growth = shadow.growth.clone();
+        shadow.bodies.iter().for_each(|body| growth.note(body.told.0, body.error(t)));
         let error = shadow.bodies.iter().map(|body| body.error(t)).fold(shadow.error, f64::max);
         let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
         let ending = ending.map(|ending| Ending { time: until, ..ending });
         let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t);
-        (Certificate { until, error, ending, events, looks: shadow.looks, places }, at_its_end)
+        (Certificate { until, error, ending, events, looks: shadow.looks, growth, places }, at_its_end)
     }
 }
 

@@ -7,6 +7,7 @@ use super::clear::Shape;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::growth::Growth;
 use super::law;
 use super::obstacle::{Part, Plate};
 use super::start::{AT_LOAD, Start};
@@ -32,6 +33,8 @@ pub(super) struct Shadow {
     changed: Vec<usize>,
     /// The largest distance of `exact` from the shadow so far, m.
     pub(super) error: f64,
+    /// When it became how large.
+    pub(super) growth: Growth,
 }
 
 fn shape(plate: &Plate, wall: &crate::scene::Wall) -> (DVec3, Shape) {
@@ -58,6 +61,7 @@ impl Shadow {
             looks: 0,
             changed: Vec::new(),
             error: 0.0,
+            growth: Growth::default(),
         }
     }
 
@@ -244,6 +248,7 @@ impl Shadow {
             if error.is_nan() || error > body.radius.value() {
                 return Err(Ending { time: body.now.t.value(), bodies: None, cause: Cause::Parted });
             }
+            self.growth.note(body.told.0, error);
             body.told = (state.t, state.x[i], state.v[i]);
             self.error = self.error.max(error);
         }

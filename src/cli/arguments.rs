@@ -10,6 +10,7 @@ use clap_complete::Shell;
 use super::numbers;
 use super::target::Target;
 use crate::config;
+use crate::export::Columns;
 use crate::measure::Shard;
 use crate::printable;
 use crate::scene::{Method, Settings};
@@ -58,6 +59,8 @@ pub(super) enum Command {
     Replay(Replay),
     /// Measure how much accuracy costs how much time
     Measure(Measure),
+    /// Mark trajectories of any program against exact, or against each other
+    Judge(Judge),
     /// Measure known results of physics and mathematics on this machine
     Verify(Verify),
     /// Print the default configuration, a file to start one's own from
@@ -236,6 +239,47 @@ pub(super) struct Measure {
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs"],
           value_hint = ValueHint::FilePath)]
     pub(super) merge: Vec<PathBuf>,
+}
+
+const JUDGE: &str = "\
+A FILE has the columns time,sphere,x,y,z,vx,vy,vz (s, m, m/s), separated by commas, semicolons or tabs, in the order of
+time; velocities may be missing, and `sphere` where there is one. docs/measure.md tells what each figure means.
+Exit status: 0 everything passes, 1 something fails, 2 a file cannot be read.";
+
+/// Mark trajectories of any program.
+#[derive(Debug, Args)]
+#[command(after_help = JUDGE)]
+pub(super) struct Judge {
+    /// Trajectories as CSV, one file a program or setting; - is standard input
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) files: Vec<OsString>,
+    /// Scene file or built-in name that they are of
+    #[arg(long, value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub(super) scene: OsString,
+    /// Largest position error that passes, m [default: nothing fails]
+    #[arg(long, value_name = "E", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) tolerance: Option<f64>,
+    /// Compare up to this time, s [default: the scene's duration]
+    #[arg(long, value_name = "T", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) until: Option<f64>,
+    /// What the files call our columns [default: as we do]
+    #[arg(long, value_name = "THEIRS=OURS,…", value_parser = Columns::parse)]
+    pub(super) columns: Option<Columns>,
+    /// Hold them against this trajectory instead of exact
+    #[arg(long, value_name = "FILE2", value_hint = ValueHint::FilePath)]
+    pub(super) against: Option<OsString>,
+    /// The steps with which one program made the files, s, in their order: fits the order of convergence
+    #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) dt: Vec<f64>,
+    /// Files marked side by side [default: the processors there are]
+    #[arg(long, value_name = "N", value_parser = numbers::count)]
+    pub(super) jobs: Option<usize>,
+    /// Write every figure as JSON, an object a line and file; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
+    /// Draw the errors over time of up to eight files; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
+    pub(super) svg: Option<Target>,
 }
 
 #[derive(Debug, Args)]

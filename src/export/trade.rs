@@ -74,9 +74,23 @@ pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, ReadErr
     read_rows(reader).map_err(ReadError)
 }
 
-/// Why a file of trade rows is refused. Displays as `line: what is wrong there`, or as ` what is wrong` if it is no line.
+/// Why a file of rows is refused. Displays as `line: what is wrong there`, or as ` what is wrong` if it is no line.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ReadError(String);
+pub struct ReadError(pub(super) String);
+
+impl ReadError {
+    /// The same, of the file of this name.
+    pub fn of(self, name: &str) -> ReadError {
+        ReadError(format!(" {name}:{}", self.0))
+    }
+}
+
+impl From<String> for ReadError {
+    /// What is wrong with a file as a whole.
+    fn from(sentence: String) -> ReadError {
+        ReadError(format!(" {sentence}"))
+    }
+}
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -141,7 +155,7 @@ fn improper(row: &TradeRow) -> Option<String> {
 }
 
 /// Longest cell quoted in a message, characters.
-const CELL: usize = 60;
+pub(super) const CELL: usize = 60;
 
 /// Which cell of a row is wrong, and what stands in it.
 fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
@@ -152,7 +166,7 @@ fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
     format!("{column} is \"{found}\"; wanted is a number")
 }
 
-fn explain(error: &csv::Error) -> String {
+pub(super) fn explain(error: &csv::Error) -> String {
     match (error.position(), error.kind()) {
         (_, csv::ErrorKind::Io(error)) => format!(" {}", printable::cause(error)),
         (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("{}: this is no text in UTF-8", place.line()),

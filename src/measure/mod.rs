@@ -44,6 +44,7 @@
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
+//! | `fit` | the order at which an error falls |
 //! | `accuracy` | the cheapest setting that meets an error |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
@@ -55,6 +56,7 @@ mod cost;
 mod deviation;
 mod displaced;
 mod figure;
+mod fit;
 mod front;
 mod growth;
 mod horizon;
@@ -76,6 +78,7 @@ pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
+pub use fit::{Fit, fit};
 pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
 pub use interrupt::{GoOn, Interrupted};
