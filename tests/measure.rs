@@ -1,5 +1,7 @@
 //! Does `measure` tell the truth: errors against closed forms, horizons against the prototypes', parts against the whole?
 
+#[path = "measure/accuracy.rs"]
+mod accuracy;
 #[path = "measure/arithmetic.rs"]
 mod arithmetic;
 #[path = "measure/certified.rs"]

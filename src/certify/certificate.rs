@@ -7,6 +7,9 @@ use super::shadow::Shadow;
 use crate::physics::{Contact, Progress, Simulation, Until};
 use crate::scene::{Method, Scene, Settings};
 
+/// Pairs of bodies that a certificate looks at, at most: half a minute.
+const MOST_LOOKS: u64 = 1_000_000_000;
+
 /// What is certified of a run by `exact`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certificate {
@@ -41,22 +44,27 @@ impl Certificate {
 /// Runs a scene by `exact` up to `until` (s) and certifies what it can; nothing if `go_on`, asked every few milliseconds,
 /// says no.
 pub fn certify(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<Certificate> {
-    let (found, at_its_end) = pursue(scene, until, go_on)?;
+    certify_within(scene, until, MOST_LOOKS, go_on)
+}
+
+/// The same with at most so many looks at pairs of bodies, some 30 ns each.
+pub fn certify_within(scene: &Scene, until: f64, looks: u64, go_on: &dyn Fn() -> bool) -> Option<Certificate> {
+    let (found, at_its_end) = pursue(scene, (until, looks), go_on)?;
     if at_its_end {
         return Some(found);
     }
     // what ends it was seen only after later events: once more, up to there
-    let (again, _) = pursue(scene, found.until, go_on)?;
+    let (again, _) = pursue(scene, (found.until, looks), go_on)?;
     let ending = found.ending.map(|ending| Ending { time: again.until, ..ending });
     Some(Certificate { ending, ..again })
 }
 
 /// The certificate of a run, and whether the shadow stopped where it ends.
-fn pursue(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<(Certificate, bool)> {
+fn pursue(scene: &Scene, (until, looks): (f64, u64), go_on: &dyn Fn() -> bool) -> Option<(Certificate, bool)> {
     let settings = Settings { method: Method::Exact, dt: until.max(f64::MIN_POSITIVE), tolerance: 0.0 };
     let mut run = Simulation::new(scene, settings);
     run.record_events(true);
-    let mut pursuit = Pursuit { shadow: Shadow::new(scene), until, events: 0 };
+    let mut pursuit = Pursuit { shadow: Shadow::new(scene, looks), until, events: 0 };
     if pursuit.shadow.is_too_large() {
         return Some((pursuit.nothing(), true));
     }

@@ -44,6 +44,6 @@ mod support;
 mod touching;
 mod vector;
 
-pub use certificate::{Certificate, certify};
+pub use certificate::{Certificate, certify, certify_within};
 pub use double::Double;
 pub use ending::{Cause, Ending};

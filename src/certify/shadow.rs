@@ -29,6 +29,8 @@ pub(super) struct Shadow {
     pub(super) bodies: Vec<Body>,
     /// Pairs of bodies looked at.
     pub(super) looks: u64,
+    /// How many of them a certificate may take.
+    pub(super) most_looks: u64,
     /// Spheres changed since `exact` was last looked at.
     changed: Vec<usize>,
     /// The largest distance of `exact` from the shadow so far, m.
@@ -43,7 +45,7 @@ fn shape(plate: &Plate, wall: &crate::scene::Wall) -> (DVec3, Shape) {
 }
 
 impl Shadow {
-    pub(super) fn new(scene: &Scene) -> Shadow {
+    pub(super) fn new(scene: &Scene, most_looks: u64) -> Shadow {
         let plates: Vec<Plate> = scene.walls.iter().map(Plate::new).collect();
         let body = |sphere: &crate::scene::Sphere| {
             let mass = Double::from(sphere.mass);
@@ -59,6 +61,7 @@ impl Shadow {
             plates,
             bodies: scene.spheres.iter().map(body).collect(),
             looks: 0,
+            most_looks,
             changed: Vec::new(),
             error: 0.0,
             growth: Growth::default(),

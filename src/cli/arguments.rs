@@ -308,7 +308,7 @@ pub(super) struct Solver {
     /// Intersection tolerance, a degree [default: the scene's]
     #[arg(long, value_name = "D", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Choose the cheapest method and setting that meets this position error, m, by a few seconds of trying
+    /// Choose the method and setting of least counted work that meets this position error, m, by trying
     #[arg(long, value_name = "E", value_parser = numbers::positive, allow_hyphen_values = true,
           conflicts_with_all = ["dt", "tolerance"])]
     accuracy: Option<f64>,

@@ -62,6 +62,8 @@ pub struct Mark {
     pub unexplained: Option<(f64, usize)>,
     /// The likeliest mistake, if the trajectory is wrong.
     pub mistake: Option<Suspicion>,
+    /// Whether it goes on to the horizon, or to a row before it.
+    pub complete: bool,
     /// Whether it passes; none if no tolerance is asked for.
     pub passes: Option<bool>,
 }
@@ -155,8 +157,8 @@ impl Exam {
         let floor = |key| observer.floor(key, spacing);
         let Compared { first_wrong, found, wanted } = compare(&exact, &observer.impacts, sight, floor);
         let end = reading.last.as_ref().map_or(0.0, |last| last.time);
-        let reaches = !against_exact || end + spacing >= self.horizon;
-        let passes = self.tolerance.map(|tolerance| reading.error.0 <= tolerance && reaches);
+        let complete = !against_exact || end + spacing >= self.horizon;
+        let passes = self.tolerance.map(|tolerance| reading.error.0 <= tolerance && complete);
         let wrong = passes != Some(true);
         Mark {
             moments: reading.moments,
@@ -172,6 +174,7 @@ impl Exam {
             imbalance: observer.imbalance,
             unexplained: observer.unexplained,
             mistake: observer.evidence.suspicion().filter(|_| wrong),
+            complete,
             passes,
         }
     }

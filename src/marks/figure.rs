@@ -129,7 +129,9 @@ fn levels(exam: &Exam, against_exact: bool, axes: &Axes, svg: &mut String) {
         let y = axes.up(error);
         let _ =
             writeln!(svg, r##"<path stroke="#000000" stroke-dasharray="2 3" d="M{} {y:.1}h{}"/>"##, PLOT[0], PLOT[2]);
-        let _ = writeln!(svg, r#"<text x="{}" y="{:.1}" font-size="11">{words}</text>"#, PLOT[0] + 6.0, y - 4.0);
+        let right = PLOT[0] + PLOT[2] - 6.0;
+        let _ =
+            writeln!(svg, r#"<text x="{right}" y="{:.1}" text-anchor="end" font-size="11">{words}</text>"#, y - 4.0);
     }
 }
 

@@ -120,6 +120,9 @@ fn paragraph(mark: &Mark) -> String {
         format::significant(mark.spacing, 2)
     )];
     said.push(places(mark));
+    if mark.passes == Some(false) && !mark.complete {
+        said.push("it ends before the horizon".into());
+    }
     if mark.interpolation > 0.0 {
         let uncertain = format::digits(mark.interpolation, 1);
         said.push(format!("places between the other's rows are uncertain by up to {uncertain} m"));

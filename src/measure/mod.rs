@@ -10,7 +10,7 @@
 //!   [`Reference::meaningful`] says until when positions can be compared.
 //! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
-//! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
+//! - [`choose`]: the setting of least counted work that meets an error.
 //!
 //! ```
 //! use carom::measure::Deviation;
@@ -41,6 +41,7 @@
 //! | `deviation` | how far one run is from another |
 //! | `slices` | how much work fits between two looks at whether to go on |
 //! | `clock`, `cost` | processor time; the only clocks |
+//! | `work` | counted work, the same on every machine |
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
@@ -71,6 +72,7 @@ mod slices;
 mod sweep;
 mod trade;
 pub mod verify;
+mod work;
 mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};

@@ -52,12 +52,24 @@ pub fn errors(
     limit: f64,
     go_on: GoOn,
 ) -> Result<Errors, Interrupted> {
-    let mut simulation = Simulation::new(scene, settings);
+    let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
+    errors_within(&mut Simulation::new(scene, settings), reference, (limit, budget), go_on)
+}
+
+/// The same of a simulation at t = 0, within a budget.
+///
+/// # Errors
+/// If `go_on` returns false.
+pub(super) fn errors_within(
+    simulation: &mut Simulation,
+    reference: &Reference,
+    (limit, budget): (f64, Budget),
+    go_on: GoOn,
+) -> Result<Errors, Interrupted> {
     let model = simulation.model().clone();
     let (meaningful, judged) = (reference.meaningful(), judged(reference));
     let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
-    let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
-    let run = sample(&mut simulation, reference.instants, budget, go_on, |k, state| {
+    let run = sample(simulation, reference.instants, budget, go_on, |k, state| {
         if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
             compared = state.t;
             let now = Deviation::between(&state.x, wanted);
