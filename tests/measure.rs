@@ -27,7 +27,7 @@ mod support;
 mod watch;
 
 use carom::export::TradeRow;
-use carom::measure::{Budget, Errors, Miss, Reference, Rung, Subject, choose, errors};
+use carom::measure::{Axes, Budget, Errors, Miss, Reference, Rung, Subject, choose, errors};
 use carom::physics::{Method, Scene};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
@@ -129,7 +129,7 @@ fn a_run_that_stalls_says_so_and_is_judged_up_to_there() {
     let rung = Rung { method: Method::Paper, dt: Some(1e-2), tolerance: Some(1e-3) };
     let row = subject.measure(rung, ON).expect("it is not interrupted");
     assert!(row.note.to_string().starts_with("stalled at 10.") && row.until < 10.5, "{row:?}");
-    assert_eq!(carom::measure::front(&[row], &[Method::Paper]), [0; 0], "it does not compete");
+    assert_eq!(carom::measure::front(&[row], &[Method::Paper], Axes::default()), [0; 0], "it does not compete");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::numbers;
 use super::target::Target;
 use crate::config;
 use crate::export::Columns;
-use crate::measure::Shard;
+use crate::measure::{CostAxis, ErrorAxis, Shard};
 use crate::printable;
 use crate::scene::{Method, Settings};
 use crate::view::{Colors, Marker};
@@ -232,11 +232,23 @@ pub(super) struct Measure {
     /// Draw the trade as a figure; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) svg: Option<Target>,
+    /// Write every row as JSON, an object a line, with the command that repeats it and the machine; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
+    /// The cost across: cpu, gaps, events, frames or dt
+    #[arg(long, value_name = "COST", default_value = "cpu", value_parser = cost_axis())]
+    pub(super) x: CostAxis,
+    /// The error up: position, time (of the first impacts), energy or depth (of overlap)
+    #[arg(long, value_name = "ERROR", default_value = "position", value_parser = error_axis())]
+    pub(super) y: ErrorAxis,
+    /// Processor time after which a setting is given up and listed as failed, s [default: never]
+    #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) timeout: Option<f64>,
     /// Measure only part I of N, I from 1
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     pub(super) shard: Option<Shard>,
     /// Join the CSV files of parts instead of measuring
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs"],
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs", "timeout"],
           value_hint = ValueHint::FilePath)]
     pub(super) merge: Vec<PathBuf>,
 }
@@ -409,6 +421,16 @@ pub(super) enum Format {
 fn method() -> impl TypedValueParser<Value = Method> {
     let names = PossibleValuesParser::new(Method::ALL.iter().map(|method| method.name()));
     names.try_map(|name| Method::from_name(&name).ok_or("no such method"))
+}
+
+fn cost_axis() -> impl TypedValueParser<Value = CostAxis> {
+    let names = PossibleValuesParser::new(CostAxis::ALL.iter().map(|(name, _)| *name));
+    names.try_map(|name| CostAxis::ALL.iter().find(|axis| axis.0 == name).map(|axis| axis.1).ok_or("no such cost"))
+}
+
+fn error_axis() -> impl TypedValueParser<Value = ErrorAxis> {
+    let names = PossibleValuesParser::new(ErrorAxis::ALL.iter().map(|(name, _)| *name));
+    names.try_map(|name| ErrorAxis::ALL.iter().find(|axis| axis.0 == name).map(|axis| axis.1).ok_or("no such error"))
 }
 
 fn target() -> impl TypedValueParser<Value = Target> {

@@ -11,8 +11,8 @@ use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
-use crate::export::{Format, Table, TradeRow, read_trade};
-use crate::measure::{self, Advance, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
+use crate::export::{Format, Table, TradeNote, TradeRow, read_trade};
+use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::printable;
 use crate::scene::{self, Method, Opened};
 
@@ -29,7 +29,7 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
     let files = Files::open(arguments)?;
     if !arguments.merge.is_empty() {
         let rows = measure::merge(read_all(&arguments.merge)?).map_err(|error| Failure::Failed(error.to_string()))?;
-        return files.write(&rows, &allowed(arguments), &[]);
+        return files.write(&rows, arguments, &[]);
     }
     let measured = sweep(arguments, signals)?;
     let (interrupted, done) = (signals.check(), measured.rows.len());
@@ -37,15 +37,15 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
         note(&format!("interrupted: none of {} settings is done; nothing is written", measured.wanted));
         return interrupted;
     }
-    files.write(&measured.rows, &allowed(arguments), &measured.yardsticks)?;
+    files.write(&measured.rows, arguments, &measured.yardsticks)?;
     if interrupted.is_err() {
         note(&format!("interrupted: {done} of {} settings are done and kept", measured.wanted));
     }
     interrupted
 }
 
-fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 2] {
-    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref())]
+fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 3] {
+    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref()), ("--json", arguments.json.as_ref())]
 }
 
 /// Which methods compete on the front: `exact`, the yardstick, only if it was asked for.
@@ -76,6 +76,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
     let sweep = Sweep::new(scenes, ladder, arguments.shard.unwrap_or(Shard::WHOLE));
     let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
+    let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY));
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let bar = progress_bar(sweep.wanted());
     let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
@@ -114,6 +115,7 @@ fn progress_bar(wanted: usize) -> ProgressBar {
 struct Files {
     csv: Option<Output>,
     svg: Option<Output>,
+    json: Option<Output>,
     /// Whether the report has standard output for itself.
     report_on_stdout: bool,
 }
@@ -122,20 +124,28 @@ impl Files {
     fn open(arguments: &Measure) -> Result<Files, Failure> {
         let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
         let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
-        Ok(Files { csv: open(&arguments.csv)?, svg: open(&arguments.svg)?, report_on_stdout: !taken })
+        let (csv, svg, json) = (open(&arguments.csv)?, open(&arguments.svg)?, open(&arguments.json)?);
+        Ok(Files { csv, svg, json, report_on_stdout: !taken })
     }
 
-    fn write(self, rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick]) -> Result<(), Failure> {
+    fn write(self, rows: &[TradeRow], arguments: &Measure, yardsticks: &[Yardstick]) -> Result<(), Failure> {
+        let (allowed, axes) = (&allowed(arguments)[..], Axes { x: arguments.x, y: arguments.y });
+        let (machine, command) = (machine(), command());
+        if let Some(json) = self.json {
+            let mut table = Table::new::<TradeNote>(Format::JsonLines, json)?;
+            rows.iter().try_for_each(|row| table.write(&TradeNote::of(row, &machine)))?;
+            table.finish()?.finish()?;
+        }
         if let Some(csv) = self.csv {
             let mut table = Table::new::<TradeRow>(Format::Csv, csv)?;
             rows.iter().try_for_each(|row| table.write(row))?;
             table.finish()?.finish()?;
         }
         if let Some(mut svg) = self.svg {
-            svg.write_all(measure::figure(rows, allowed).as_bytes())?;
+            svg.write_all(measure::figure(rows, allowed, axes, &format!("{command}; {machine}")).as_bytes())?;
             svg.finish()?;
         }
-        let text = measure::report(rows, allowed, yardsticks);
+        let text = measure::report(rows, allowed, yardsticks, axes);
         if self.report_on_stdout {
             let mut out = Output::stdout();
             out.write_all(text.as_bytes())?;
@@ -157,4 +167,20 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }
     Ok(all)
+}
+
+/// What the timings are of: processor, cores, system, version.
+fn machine() -> String {
+    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    let model = model.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let (system, version) = (std::env::consts::OS, env!("CARGO_PKG_VERSION"));
+    printable::escaped(&format!("{model}, {cores} cores, {system}, carom {version}"))
+}
+
+/// The command line that was given.
+fn command() -> String {
+    let words: Vec<String> = std::env::args_os().skip(1).map(|word| printable::name(&word)).collect();
+    format!("carom {}", words.join(" "))
 }

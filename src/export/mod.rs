@@ -22,4 +22,4 @@ pub use note::Note;
 pub use rows::{EventRow, StateRow};
 pub use states::{Columns, Moment, States};
 pub use table::{Format, Row, Table};
-pub use trade::{ReadError, TradeRow, read_trade};
+pub use trade::{ReadError, TradeNote, TradeRow, read_trade};

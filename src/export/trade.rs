@@ -9,7 +9,7 @@ use super::table::Row;
 use crate::printable;
 
 /// One setting on one scene. An empty cell: the method has no such knob, or there is no such figure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TradeRow {
     /// The scene's key.
     pub scene: String,
@@ -37,8 +37,14 @@ pub struct TradeRow {
     pub impacts: u64,
     /// Degree evaluations.
     pub evaluations: u64,
+    /// Impacts, rests and releases of the whole run.
+    pub events: u64,
+    /// Frames of the whole run.
+    pub frames: u64,
     /// Thread CPU time per simulated second, s; the best of several.
     pub cpu_per_s: Option<f64>,
+    /// The median of these.
+    pub cpu_median: Option<f64>,
     /// (worst − best) / best of these.
     pub cpu_spread: Option<f64>,
     /// Reasons to doubt these figures; empty if there are none.
@@ -60,10 +66,41 @@ impl Row for TradeRow {
         "deepest_degree",
         "impacts",
         "evaluations",
+        "events",
+        "frames",
         "cpu_per_s",
+        "cpu_median",
         "cpu_spread",
         "note",
     ];
+}
+
+/// A row with what repeats it: written by `measure --json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TradeNote {
+    /// The row.
+    #[serde(flatten)]
+    pub row: TradeRow,
+    /// The command that measures this setting again.
+    pub command: String,
+    /// Processor, cores, system and version of Carom.
+    pub machine: String,
+}
+
+impl TradeNote {
+    /// A row measured on a machine.
+    pub fn of(row: &TradeRow, machine: &str) -> TradeNote {
+        let knob =
+            |name: &str, value: Option<f64>| value.map(|value| format!(" --{name} {value:e}")).unwrap_or_default();
+        let knobs = knob("dt", row.dt) + &knob("tolerances", row.tolerance);
+        let command = format!("carom measure {} --methods {}{knobs}", row.scene, row.method);
+        TradeNote { row: row.clone(), command, machine: machine.into() }
+    }
+}
+
+impl Row for TradeNote {
+    /// Written as JSON only.
+    const COLUMNS: &'static [&'static str] = &[];
 }
 
 /// Reads a file of trade rows, each with its line number.
@@ -134,6 +171,7 @@ fn improper(row: &TradeRow) -> Option<String> {
         ("impact_time_error", row.impact_time_error),
         ("energy_error", row.energy_error),
         ("cpu_per_s", row.cpu_per_s),
+        ("cpu_median", row.cpu_median),
         ("cpu_spread", row.cpu_spread),
     ];
     if let Some(dt) = row.dt.filter(|dt| !dt.is_finite() || *dt <= 0.0) {
@@ -194,7 +232,10 @@ mod tests {
             deepest_degree: -0.0,
             impacts: 22,
             evaluations: u64::MAX,
+            events: 30,
+            frames: 200,
             cpu_per_s: Some(1e300),
+            cpu_median: None,
             cpu_spread: None,
             note: "stalled at 1 s".into(),
         }
@@ -221,7 +262,7 @@ mod tests {
             (String::new(), &["1: ", "empty"][..]),
             ("time,sphere\n1,2\n".into(), &["1: ", "columns"]),
             (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
-            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
+            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "19"]),
             (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
             (good.replace("1e300", "NaN"), &["2: ", "cpu_per_s is NaN"]),
             (good.replace("paper,0.1", "paper,inf"), &["2: ", "dt is inf", "finite"]),

@@ -45,12 +45,15 @@
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
+//! | `axes` | which error over which cost |
+//! | `orders` | the order of each method in its knob |
 //! | `fit` | the order at which an error falls |
 //! | `accuracy` | the cheapest setting that meets an error |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
 
 mod accuracy;
+mod axes;
 mod chart;
 mod clock;
 mod cost;
@@ -63,6 +66,7 @@ mod growth;
 mod horizon;
 mod interrupt;
 mod ladder;
+mod orders;
 mod reference;
 mod report;
 mod sample;
@@ -76,6 +80,7 @@ mod work;
 mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
+pub use axes::{Axes, Cost as CostAxis, Error as ErrorAxis};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
 pub use deviation::{Deviation, common_impacts, impact_time_error};

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::cost::{Cost, cost};
+use super::cost::Timings;
 use super::deviation::{Deviation, common_impacts, impact_time_error};
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::Rung;
@@ -124,12 +124,27 @@ impl Subject {
     /// # Errors
     /// If `go_on` returns false.
     pub fn measure(&self, rung: Rung, go_on: GoOn) -> Result<TradeRow, Interrupted> {
+        let mut setting = self.begin(rung, f64::INFINITY, go_on)?;
+        while setting.timings.wants_more() {
+            setting.timings.add(&self.scene, go_on)?;
+        }
+        Ok(setting.row())
+    }
+
+    /// Measures the errors of one setting, within so much processor time (s), and times it once.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub(super) fn begin(&self, rung: Rung, timeout: f64, go_on: GoOn) -> Result<Setting, Interrupted> {
         let Instants { until, .. } = self.reference.instants;
         let settings = rung.settings(until);
-        let errors = errors(&self.scene, settings, &self.reference, f64::INFINITY, go_on)?;
-        let cost = cost(&self.scene, settings, errors.end, go_on)?;
-        let note = self.note(&errors, &cost);
-        Ok(TradeRow {
+        let usual = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
+        let budget = Budget { cpu: usual.cpu.min(timeout), ..usual };
+        let mut simulation = Simulation::new(&self.scene, settings);
+        let errors = errors_within(&mut simulation, &self.reference, (f64::INFINITY, budget), go_on)?;
+        let timings = Timings::begin(&self.scene, settings, errors.end, go_on)?;
+        let tallies = errors.run.tallies;
+        let row = TradeRow {
             scene: self.key.clone(),
             method: rung.method.name().into(),
             dt: rung.dt,
@@ -140,22 +155,28 @@ impl Subject {
             impact_time_error: errors.impact_time,
             common_events: errors.common as u64,
             energy_error: errors.energy,
-            deepest_degree: errors.run.tallies.deepest_degree,
+            deepest_degree: tallies.deepest_degree,
             impacts: errors.run.impacts.len() as u64,
-            evaluations: errors.run.tallies.evaluations,
-            cpu_per_s: Some(cost.cpu_per_s).filter(|cost| cost.is_finite()), // of a run that stalls at its start
-            cpu_spread: cost.spread,
-            note,
-        })
+            evaluations: tallies.evaluations,
+            events: tallies.impacts + tallies.rests + tallies.releases,
+            frames: tallies.frames,
+            cpu_per_s: None,
+            cpu_median: None,
+            cpu_spread: None,
+            note: self.note(&errors),
+        };
+        Ok(Setting { row, timings })
     }
 
-    /// Reasons to doubt the figures of a run, a phrase each: first those that repeat, then those of the clock.
-    fn note(&self, errors: &Errors, cost: &Cost) -> Note {
+    /// Reasons to doubt the figures of a run that repeat, a phrase each.
+    fn note(&self, errors: &Errors) -> Note {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
         let stalled = errors.run.end_reason.as_ref().map(|end_reason| match end_reason {
             EndReason::Stalled(stall) => format!("{} s ({})", format::seconds(stall.time), stall.kind),
-            EndReason::Spent | EndReason::Enough => format!("{} s (passes its budget)", format::seconds(errors.end)),
+            EndReason::Spent | EndReason::Enough => {
+                format!("{} s (passes its budget or time-out)", format::seconds(errors.end))
+            }
         });
         let mut doubts = Vec::new();
         if !doubt.is_empty() {
@@ -170,7 +191,25 @@ impl Subject {
         if errors.impact_time.is_none() && !self.reference.impacts.is_empty() {
             doubts.push("lacks one of the first impacts".into());
         }
-        doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
         Note { stalled, doubts }
+    }
+}
+
+/// A setting whose errors are measured and whose timings are under way.
+#[derive(Debug, Clone)]
+pub(super) struct Setting {
+    row: TradeRow,
+    pub(super) timings: Timings,
+}
+
+impl Setting {
+    /// What is known by now.
+    pub(super) fn row(&self) -> TradeRow {
+        let cost = self.timings.summary();
+        let finite = |cost: f64| Some(cost).filter(|cost| cost.is_finite()); // none of a run that stalls at its start
+        let mut row = self.row.clone();
+        (row.cpu_per_s, row.cpu_median, row.cpu_spread) = (finite(cost.cpu_per_s), finite(cost.median), cost.spread);
+        row.note.doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
+        row
     }
 }

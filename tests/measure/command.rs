@@ -8,7 +8,8 @@ use crate::program::{carom, folder, in_folder, names_in};
 use crate::pty;
 
 const COLUMNS: &str = "scene,method,dt,tolerance,until,horizon,position_error,impact_time_error,common_events,\
-                       energy_error,deepest_degree,impacts,evaluations,cpu_per_s,cpu_spread,note";
+                       energy_error,deepest_degree,impacts,evaluations,events,frames,cpu_per_s,cpu_median,cpu_spread,\
+                       note";
 
 /// Few and quick settings, two of which stall in paper-2.
 const QUICK: [&str; 5] = ["measure", "paper-0", "paper-2", "--dt=1e-1,1e-2", "--tolerances=1e-3,1e-5"];
@@ -16,7 +17,7 @@ const QUICK: [&str; 5] = ["measure", "paper-0", "paper-2", "--dt=1e-1,1e-2", "--
 /// What the clock has to say in a note.
 const OF_THE_CLOCK: [&str; 4] = ["timer too coarse", "timed once", "timings spread widely", "machine busy"];
 
-/// The rows without what the clock says: the last but two, the last but one, and phrases of the last.
+/// The rows without what the clock says: the three cells before the last, and phrases of the last.
 fn timeless(csv: &str) -> Vec<String> {
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some(COLUMNS));
@@ -25,9 +26,9 @@ fn timeless(csv: &str) -> Vec<String> {
 
 fn without_times(line: &str) -> String {
     let cells: Vec<&str> = line.split(',').collect();
-    assert_eq!(cells.len(), 16, "{line}");
-    let note: Vec<&str> = cells[15].split("; ").filter(|phrase| !OF_THE_CLOCK.contains(phrase)).collect();
-    format!("{},{}", cells[..13].join(","), note.join("; "))
+    assert_eq!(cells.len(), 19, "{line}");
+    let note: Vec<&str> = cells[18].split("; ").filter(|phrase| !OF_THE_CLOCK.contains(phrase)).collect();
+    format!("{},{}", cells[..15].join(","), note.join("; "))
 }
 
 #[test]
@@ -151,7 +152,7 @@ fn an_interrupt_before_anything_is_done_keeps_the_old_results() {
 fn a_broken_part_is_refused_with_file_and_line() {
     let folder = folder();
     let path = in_folder(&folder, "part.csv");
-    let row = "paper-0,paper,0.1,0.001,20.0,,1.0,,0,0.5,0.0,0,1206,1e-6,0.1,";
+    let row = "paper-0,paper,0.1,0.001,20.0,,1.0,,0,0.5,0.0,0,1206,0,200,1e-6,1e-6,0.1,";
     for (text, line, words) in [
         (String::new(), 1, "empty"),
         ("a,b\n1,2\n".into(), 1, "columns"),
@@ -243,4 +244,42 @@ fn words(line: &str) -> Option<Vec<String>> {
     let filled = command[start..].replace("$SLURM_ARRAY_TASK_ID", "3").replace("$SLURM_ARRAY_TASK_COUNT", "64");
     let filled = filled.replace("{1}", "0").replace("{2}", "2").replace('"', "");
     Some(filled.split_whitespace().map(String::from).collect())
+}
+
+#[test]
+fn other_axes_json_orders_and_failures_are_to_be_had() {
+    let folder = folder();
+    let (svg, json) = (in_folder(&folder, "trade.svg"), in_folder(&folder, "trade.jsonl"));
+    let grid =
+        ["measure", "paper-0", "paper-2", "--methods=paper,swept", "--dt=1e-1,1e-2", "--tolerances=1e-3,1e-5,1e-7"];
+    let ran =
+        carom(&[&grid[..], &["--x", "gaps", "--y", "energy", "--svg", &svg, "--json", &json]].concat()).succeeds();
+    for words in [
+        "energy error, relative",
+        "gaps computed",
+        "Order of the error",
+        "swept",
+        "Stopped: paper, dt",
+        "very same run",
+    ] {
+        assert!(ran.out.contains(words), "{words:?} is not in\n{}", ran.out);
+    }
+    assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+    let svg = fs::read_to_string(&svg).expect("the figure");
+    for words in ["Energy error over cost", ">gaps computed<", "carom measure paper-0 paper-2", "cores"] {
+        assert!(svg.contains(words), "{words:?} is not in {svg}");
+    }
+    let json = fs::read_to_string(&json).expect("JSON");
+    assert_eq!(json.lines().count(), 24);
+    let line: serde_json::Value = serde_json::from_str(json.lines().next().expect("a row")).expect("an object");
+    assert_eq!(line["command"], "carom measure paper-0 --methods paper --dt 1e-1 --tolerances 1e-3", "{line}");
+    assert!(line["frames"].as_u64().is_some_and(|frames| frames > 0) && line["machine"].is_string(), "{line}");
+}
+
+#[test]
+fn a_setting_that_takes_too_long_is_given_up_and_listed() {
+    let grid = ["measure", "paper-0", "--methods=paper", "--dt=1e-2,1e-8", "--tolerances=1e-3", "--timeout", "0.2"];
+    let ran = carom(&grid).succeeds();
+    assert!(ran.out.contains("Stopped: paper, dt 1e-8 s, tolerance 1e-3 at"), "{}", ran.out);
+    assert!(ran.out.contains("time-out"), "{}", ran.out);
 }
