@@ -10,6 +10,8 @@ mod certified;
 mod command;
 #[path = "measure/figures.rs"]
 mod figures;
+#[path = "measure/floor.rs"]
+mod floor;
 #[path = "measure/judged.rs"]
 mod judged;
 #[allow(dead_code)] // each test crate uses what it needs

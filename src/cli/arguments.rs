@@ -244,6 +244,9 @@ pub(super) struct Measure {
     /// Processor time after which a setting is given up and listed as failed, s [default: never]
     #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) timeout: Option<f64>,
+    /// The horizon is where the certified error of exact exceeds this, m
+    #[arg(long, value_name = "E", default_value = "1e-6", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) error: f64,
     /// Measure only part I of N, I from 1
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     pub(super) shard: Option<Shard>,

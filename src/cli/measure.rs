@@ -76,7 +76,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
     let sweep = Sweep::new(scenes, ladder, arguments.shard.unwrap_or(Shard::WHOLE));
     let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
-    let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY));
+    let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY)).asking(arguments.error);
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let bar = progress_bar(sweep.wanted());
     let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {

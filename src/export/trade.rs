@@ -23,6 +23,10 @@ pub struct TradeRow {
     pub until: f64,
     /// Up to when positions mean something, s; empty if they do up to the end.
     pub horizon: Option<f64>,
+    /// Up to when the reference is certified to the error asked for, s; empty if it is not `exact`.
+    pub certified: Option<f64>,
+    /// How far the reference itself may be off up to there, m: no position error below it means anything.
+    pub floor: Option<f64>,
     /// Largest |x − x_ref| of any sphere at any instant up to the horizon, m.
     pub position_error: Option<f64>,
     /// Largest time error of the reference's first 10 impacts, s; empty if the run lacks one of them.
@@ -59,6 +63,8 @@ impl Row for TradeRow {
         "tolerance",
         "until",
         "horizon",
+        "certified",
+        "floor",
         "position_error",
         "impact_time_error",
         "common_events",
@@ -167,6 +173,8 @@ fn improper(row: &TradeRow) -> Option<String> {
         ("tolerance", row.tolerance),
         ("until", Some(row.until)),
         ("horizon", row.horizon),
+        ("certified", row.certified),
+        ("floor", row.floor),
         ("position_error", row.position_error),
         ("impact_time_error", row.impact_time_error),
         ("energy_error", row.energy_error),
@@ -225,6 +233,8 @@ mod tests {
             tolerance: None,
             until: 20.0,
             horizon: None,
+            certified: Some(20.0),
+            floor: Some(1e-15),
             position_error: Some(5e-324),
             impact_time_error: None,
             common_events: 3,
@@ -262,7 +272,7 @@ mod tests {
             (String::new(), &["1: ", "empty"][..]),
             ("time,sphere\n1,2\n".into(), &["1: ", "columns"]),
             (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
-            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "19"]),
+            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "21"]),
             (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
             (good.replace("1e300", "NaN"), &["2: ", "cpu_per_s is NaN"]),
             (good.replace("paper,0.1", "paper,inf"), &["2: ", "dt is inf", "finite"]),

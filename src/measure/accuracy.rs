@@ -125,10 +125,7 @@ pub fn choose(
 /// not parted, whichever is later; and the certificate.
 fn yardstick(scene: &Scene, wanted: f64, until: f64, go_on: GoOn) -> Result<(Reference, Certificate), Interrupted> {
     let certificate = certify_within(scene, until, LOOKS, &|| go_on()).ok_or(Interrupted)?;
-    let certified = certificate.within(FLOOR * wanted);
-    let mut reference = Reference::brief(scene, until, Budget::BRIEF, go_on)?;
-    let meaningful = reference.meaningful().max(certified).min(reference.end);
-    reference.horizon.time = (meaningful < reference.end).then_some(meaningful);
+    let reference = Reference::brief(scene, until, Budget::BRIEF, go_on)?.with(&certificate, FLOOR * wanted);
     Ok((reference, certificate))
 }
 

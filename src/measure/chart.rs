@@ -1,6 +1,6 @@
 //! Error over cost as a chart of characters, 80 columns wide: a letter for each method, so that no colour is needed.
 
-use super::axes::Axes;
+use super::axes::{Axes, Error};
 use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
@@ -28,13 +28,15 @@ pub(super) fn chart(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> String
     if points().next().is_none() {
         return String::new();
     }
-    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1)));
+    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1).chain(floor(rows, axes))));
+    let floor = floor(rows, axes);
     let mut plot = vec![[' '; WIDTH]; HEIGHT];
     let column = |value: f64| (x.place(value) * (WIDTH - 1) as f64).round() as usize;
     let line = |value: f64| HEIGHT - 1 - (y.place(value) * (HEIGHT - 1) as f64).round() as usize;
     let best = front(rows, allowed, axes);
     let corners: Vec<(usize, usize)> =
         best.iter().filter_map(|&i| axes.point(&rows[i])).map(|(cost, error)| (column(cost), line(error))).collect();
+    floor.iter().for_each(|floor| plot[line(*floor)].fill('-'));
     draw_steps(&mut plot, &corners);
     let on_front = |index: &usize| best.contains(index);
     let mut order: Vec<usize> = (0..rows.len()).collect();
@@ -45,6 +47,11 @@ pub(super) fn chart(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> String
         }
     }
     framed(&plot, [x, y], axes) + &legend(rows, axes)
+}
+
+/// The yardstick's own error, if it is known and is one of these errors.
+fn floor(rows: &[TradeRow], axes: Axes) -> Option<f64> {
+    rows[0].floor.filter(|floor| axes.y == Error::Position && *floor > 0.0)
 }
 
 /// The front as steps: from each setting's cost on, its error is to be had.
@@ -87,5 +94,6 @@ fn legend(rows: &[TradeRow], axes: Axes) -> String {
     let words = names.iter().map(|name| format!("{} {name}", name.chars().next().unwrap_or('?')));
     let words: Vec<String> = words.collect();
     let axis = format!("{:>LABELS$}  {:^WIDTH$}", "", axes.x.axis());
-    format!("{}\n{:>LABELS$}  {}; capital and ·: the front\n", axis.trim_end(), "", words.join(", "))
+    let own = floor(rows, axes).map(|_| format!("{:>LABELS$}  -: exact's own error\n", "")).unwrap_or_default();
+    format!("{}\n{:>LABELS$}  {}; capital and ·: the front\n{own}", axis.trim_end(), "", words.join(", "))
 }

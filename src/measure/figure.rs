@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use super::axes::Axes;
+use super::axes::{Axes, Error};
 use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
@@ -82,11 +82,12 @@ pub fn figure(rows: &[TradeRow], allowed: &[Method], axes: Axes, about: &str) ->
 
 fn panel(rows: &[TradeRow], (allowed, axes): (&[Method], Axes), svg: &mut String) {
     let points = || rows.iter().filter_map(|row| axes.point(row));
-    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1)));
+    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1).chain(floor(rows, axes))));
     let framed = Frame { plot: PLOT, axes, x, y };
     let best = front(rows, allowed, axes);
     frame(&framed, svg);
     words(rows, &framed, svg);
+    own_error(rows, &framed, svg);
     steps(rows, &best, &framed, svg);
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(|index| best.contains(index)); // the front last: nothing covers it
@@ -150,6 +151,24 @@ fn words(rows: &[TradeRow], axes: &Frame, svg: &mut String) {
         svg,
         r#"<text transform="translate(22 {up}) rotate(-90)" text-anchor="middle">{}</text>"#,
         axes.axes.y.label(),
+    );
+}
+
+/// The yardstick's own error, if it is known and is one of these errors.
+fn floor(rows: &[TradeRow], axes: Axes) -> Option<f64> {
+    rows[0].floor.filter(|floor| axes.y == Error::Position && *floor > 0.0)
+}
+
+/// The line below which no position error means anything.
+fn own_error(rows: &[TradeRow], framed: &Frame, svg: &mut String) {
+    let Some(floor) = floor(rows, framed.axes) else { return };
+    let (left, right, y) = (framed.across(0.0), framed.across(1.0), framed.up(framed.y.place(floor)));
+    let _ = writeln!(svg, r##"<path stroke="#000000" stroke-dasharray="2 3" d="M{left} {y:.1}H{right}"/>"##);
+    let _ = writeln!(
+        svg,
+        r#"<text x="{}" y="{:.1}" text-anchor="end" font-size="11">exact's own error</text>"#,
+        right - 6.0,
+        y - 4.0
     );
 }
 

@@ -1,7 +1,8 @@
 //! Runs without a screen that measure: how far a method is from the truth, and what it costs.
 //!
-//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*, the time until a
-//! displacement of 1e-12 m has grown by 1e6: beyond it positions mean nothing. The cost is the processor time of one
+//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*: until there the
+//! certified error of `exact` is within what is asked, or a displacement of 1e-12 m has not yet grown by 1e6; beyond it positions mean
+//! nothing. The cost is the processor time of one
 //! thread per simulated second, and the work counted. How far `exact` itself is off, [`certify`](crate::certify) tells.
 //!
 //! For others to build on:
@@ -90,10 +91,10 @@ pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
 pub use interrupt::{GoOn, Interrupted};
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
-pub use reference::{Horizon, Reference};
+pub use reference::{Horizon, OwnError, Reference};
 pub use report::report;
 pub use sample::{Budget, EndReason, Impact, Instants, Sampled, sample};
 pub use shard::{MergeError, NoShard, Placed, Shard, merge};
 pub use slices::Slices;
 pub use sweep::{Advance, Measured, Sweep, SweepError, Yardstick};
-pub use trade::{Errors, Subject, errors};
+pub use trade::{ASKED, Errors, Subject, errors};

@@ -51,7 +51,10 @@ fn heading(rows: &[TradeRow], yardstick: Option<&Yardstick>) -> String {
         Some(time) => format!("horizon {} s: beyond it positions mean nothing", format::time(time)),
         None => format!("horizon none{growth}: positions mean something to the end"),
     };
-    format!("{}: {} s; {horizon}", rows[0].scene, format::time(until))
+    let own = rows[0].certified.zip(rows[0].floor).map(|(time, floor)| {
+        format!("\nexact itself is off by {} m at most, up to {} s", format::digits(floor, 1), format::time(time))
+    });
+    format!("{}: {} s; {horizon}{}", rows[0].scene, format::time(until), own.unwrap_or_default())
 }
 
 /// Errors in m and s, energy and depth as parts; gaps computed, CPU time per simulated second and its spread.
@@ -183,7 +186,8 @@ fn same_as(row: &TradeRow, alike: &[&TradeRow]) -> Option<String> {
 }
 
 fn found_orders(rows: &[TradeRow], axes: Axes) -> String {
-    let found: Vec<String> = orders(rows, axes, 0.0).iter().map(|order| order.to_string()).collect();
+    let found: Vec<String> =
+        orders(rows, axes, rows[0].floor.unwrap_or(0.0)).iter().map(|order| order.to_string()).collect();
     if found.is_empty() { String::new() } else { format!("Order of the error, with 95 %: {}.\n", found.join(";\n  ")) }
 }
 

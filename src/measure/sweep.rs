@@ -9,7 +9,7 @@ use super::cost::cost;
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::shard::Shard;
-use super::trade::{Setting, Subject};
+use super::trade::{ASKED, Setting, Subject};
 use crate::export::TradeRow;
 use crate::scene::{Method, Scene};
 
@@ -26,6 +26,8 @@ pub struct Sweep {
     shard: Shard,
     /// Processor time after which a setting is given up, s.
     timeout: f64,
+    /// The error that references may have themselves, m.
+    asked: f64,
 }
 
 /// What became of a sweep.
@@ -85,20 +87,25 @@ impl Sweep {
     /// # Errors
     /// If two scenes have one name, so that their rows could not be told apart, or if one lasts 0 s.
     pub fn new(mut scenes: Vec<(String, Scene)>, ladder: Ladder, shard: Shard) -> Result<Sweep, SweepError> {
-        let timeout = f64::INFINITY;
+        let (timeout, asked) = (f64::INFINITY, ASKED);
         scenes.sort_by(|a, b| a.0.cmp(&b.0));
         if let Some((key, _)) = scenes.iter().find(|(_, scene)| scene.duration <= 0.0) {
             return Err(SweepError::NoDuration(key.clone()));
         }
         match scenes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             Some(pair) => Err(SweepError::OneName(pair[0].0.clone())),
-            None => Ok(Sweep { scenes, ladder, shard, timeout }),
+            None => Ok(Sweep { scenes, ladder, shard, timeout, asked }),
         }
     }
 
     /// The same, with each setting given up after so much processor time (s), and judged up to there.
     pub fn with_timeout(self, timeout: f64) -> Sweep {
         Sweep { timeout, ..self }
+    }
+
+    /// The same, with horizons where the certified error of a reference leaves this, m.
+    pub fn asking(self, asked: f64) -> Sweep {
+        Sweep { asked, ..self }
     }
 
     /// The settings of this sweep's shard: (index of the scene, setting).
@@ -153,7 +160,7 @@ impl Sweep {
     }
 
     fn subject(&self, key: &str, scene: &Scene, go_on: GoOn) -> Result<(Subject, Yardstick), Interrupted> {
-        let subject = Subject::new(key, scene.clone(), go_on)?;
+        let subject = Subject::asking(key, scene.clone(), self.asked, go_on)?;
         let reference = &subject.reference;
         let price = cost(scene, reference.settings, reference.end, go_on)?;
         let yardstick = Yardstick {

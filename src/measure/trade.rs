@@ -16,9 +16,15 @@ use crate::scene::{Method, Scene, Settings};
 /// A horizon below this part of the run is short: most of the run cannot be judged by positions.
 const SHORT: f64 = 0.5;
 
+/// The error that the reference may have itself, m, unless told otherwise: the horizon is where it has more.
+pub const ASKED: f64 = 1e-6;
+
 /// A reference whose energy changes by less than this part of itself conserves it: then energies can be compared beyond
 /// the horizon.
 const CONSERVED: f64 = 1e-9;
+
+/// The doubt of a setting that is nearer to the reference than that is to the truth.
+pub(super) const BELOW: &str = "below the yardstick's own error";
 
 /// The errors of a run against a reference.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +44,13 @@ pub struct Errors {
     pub energy: Option<f64>,
     /// The run as read.
     pub run: Sampled,
+}
+
+impl Errors {
+    /// Whether it is the reference itself once more.
+    fn is_exact(&self) -> bool {
+        self.position.distance == 0.0
+    }
 }
 
 /// Runs a setting beside a reference, up to the reference's last instant; given up once the deviation exceeds `limit`
@@ -115,7 +128,15 @@ impl Subject {
     /// # Errors
     /// If `go_on` returns false.
     pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
-        let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
+        Subject::asking(key, scene, ASKED, go_on)
+    }
+
+    /// The same, with the horizon where the certified error of the reference leaves what is `asked`, m.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub fn asking(key: &str, scene: Scene, asked: f64, go_on: GoOn) -> Result<Subject, Interrupted> {
+        let reference = Reference::certified(&scene, (asked, scene.duration), go_on)?;
         Ok(Subject { key: key.into(), scene, reference })
     }
 
@@ -151,6 +172,8 @@ impl Subject {
             tolerance: rung.tolerance,
             until: errors.end,
             horizon: self.reference.horizon.time,
+            certified: self.reference.own.map(|own| own.until),
+            floor: self.reference.own.map(|own| own.error),
             position_error: Some(errors.position.distance),
             impact_time_error: errors.impact_time,
             common_events: errors.common as u64,
@@ -184,6 +207,9 @@ impl Subject {
         }
         if horizon.time.is_some_and(|time| time < SHORT * instants.until) {
             doubts.push("horizon short".into());
+        }
+        if self.reference.own.is_some_and(|own| errors.position.distance < own.error) && !errors.is_exact() {
+            doubts.push(BELOW.into());
         }
         if errors.position.distance > smallest {
             doubts.push("parted from the reference".into());

@@ -13,6 +13,8 @@ fn row(method: &str, (dt, tolerance): (f64, f64), (error, cost): (f64, f64)) -> 
         tolerance: used(tolerance),
         until: 20.0,
         horizon: Some(7.8),
+        certified: Some(7.8),
+        floor: Some(2e-3),
         position_error: Some(error),
         impact_time_error: Some(error / 10.0),
         common_events: 18,
