@@ -8,6 +8,8 @@ mod arithmetic;
 mod certified;
 #[path = "measure/command.rs"]
 mod command;
+#[path = "measure/crowds.rs"]
+mod crowds;
 #[path = "measure/figures.rs"]
 mod figures;
 #[path = "measure/floor.rs"]
@@ -36,6 +38,11 @@ use glam::{DVec3, dvec3};
 use support::{ELASTIC, G, PAPER_LAW, changed, paper, paper_scene, room, scene, sphere, wall};
 
 const ON: &(dyn Fn() -> bool + Sync) = &|| true;
+
+/// What a command that succeeds writes to standard output.
+fn carom_of(arguments: &[&str]) -> String {
+    program::carom(arguments).succeeds().out
+}
 
 /// A sphere of 1 kg that falls for so long (s) from 10 m and meets nothing.
 fn drop_for(duration: f64) -> Scene {

@@ -247,6 +247,9 @@ pub(super) struct Measure {
     /// The horizon is where the certified error of exact exceeds this, m
     #[arg(long, value_name = "E", default_value = "1e-6", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) error: f64,
+    /// Judge a crowd beyond its horizon instead: means and standard errors over N runs that begin a hair aside
+    #[arg(long, value_name = "N", value_parser = numbers::count, conflicts_with_all = ["shard", "merge", "svg"])]
+    pub(super) crowd: Option<usize>,
     /// Measure only part I of N, I from 1
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     pub(super) shard: Option<Shard>,

@@ -54,6 +54,8 @@ pub struct Choice {
     pub certified: f64,
     /// How far `exact` itself may be off up to there, m.
     pub floor: f64,
+    /// How far the chosen run was tried, s, if no setting came to its end within the work of a search.
+    pub tried_until: Option<f64>,
     /// How many settings there are, and how many of them were not tried to an end.
     pub settings_tried: (usize, usize),
 }
@@ -97,14 +99,18 @@ pub fn choose(
         wanted: wanted * (1.0 - FLOOR),
         open: Ladder { methods: methods.to_vec(), ..Ladder::default() }.rungs(),
         met: Vec::new(),
+        held: Vec::new(),
         spent: 0,
     };
     let all = search.open.len();
     search.run(go_on)?;
     let cut_short = if search.met.is_empty() { search.open.len() } else { 0 };
     search.met.sort_by_key(|tried| tried.work);
-    let chosen =
-        *search.met.first().ok_or_else(|| Miss::Nothing(nothing(wanted, methods, &reference, cut_short > 0)))?;
+    let farthest = search.held.iter().copied().reduce(|one, other| if other.1 > one.1 { other } else { one });
+    let ended = search.met.first().map(|tried| (*tried, None));
+    let held = farthest.map(|(tried, until)| (tried, Some(until)));
+    let nothing = || Miss::Nothing(nothing(wanted, methods, &reference, cut_short > 0));
+    let (chosen, tried_until) = ended.or(held).ok_or_else(nothing)?;
     let Rung { method, dt, tolerance } = chosen.rung;
     Ok(Choice {
         settings: Settings {
@@ -116,6 +122,7 @@ pub fn choose(
         next: search.met.iter().find(|tried| tried.rung.method != method).copied(),
         compared: reference.meaningful(),
         certified: certificate.within(FLOOR * wanted).min(reference.meaningful()),
+        tried_until,
         floor: certificate.error.min(FLOOR * wanted),
         settings_tried: (all, cut_short),
     })
@@ -153,6 +160,8 @@ struct Search<'a> {
     open: Vec<Rung>,
     /// Those that have met it.
     met: Vec<Tried>,
+    /// Those that have met it as far as positions mean something, but not ended, in this round; and how far they came, s.
+    held: Vec<(Tried, f64)>,
     /// Counted work of all so far, ns.
     spent: u64,
 }
@@ -162,18 +171,28 @@ enum Outcome {
     Met(Tried),
     Missed,
     Unfinished,
+    /// It has met the error as far as that can be said, and come so far, s.
+    Held(Tried, f64),
 }
 
 impl Search<'_> {
     fn run(&mut self, go_on: GoOn) -> Result<(), Interrupted> {
         let mut work = FIRST;
         while self.met.is_empty() && !self.open.is_empty() && self.spent < PATIENCE {
+            let before = std::mem::take(&mut self.held);
             for rung in std::mem::take(&mut self.open) {
                 match self.attempt(rung, work, go_on)? {
                     Outcome::Met(tried) => self.met.push(tried),
                     Outcome::Missed => {}
                     Outcome::Unfinished => self.open.push(rung),
+                    Outcome::Held(tried, until) => {
+                        self.open.push(rung);
+                        self.held.push((tried, until));
+                    }
                 }
+            }
+            if self.held.is_empty() {
+                self.held = before; // this round was cut short
             }
             work *= MORE;
         }
@@ -196,6 +215,9 @@ impl Search<'_> {
         Ok(match errors.run.end_reason {
             _ if error > self.wanted => Outcome::Missed,
             Some(EndReason::Stalled(_)) => Outcome::Missed,
+            Some(EndReason::Spent) if errors.run.end >= self.reference.meaningful() => {
+                Outcome::Held(Tried { rung, error, work: done }, errors.run.end)
+            }
             Some(EndReason::Spent) => Outcome::Unfinished,
             Some(EndReason::Enough) | None => Outcome::Met(Tried { rung, error, work: done }),
         })
@@ -218,6 +240,10 @@ impl Choice {
     pub fn sentence(&self) -> String {
         let in_words = |tried: &Tried| setting(tried.rung.method.name(), tried.rung.dt, tried.rung.tolerance);
         let Tried { error, work, .. } = self.chosen;
+        let reason = match self.tried_until {
+            None => format!("least counted work of {} settings, about", self.settings_tried.0),
+            Some(until) => format!("farthest of {} settings, to {} s in", self.settings_tried.0, format::time(until)),
+        };
         let next = self.next.map_or(String::new(), |next| {
             let times = format::significant(next.work as f64 / work.max(1) as f64, 1);
             format!("; next is {}, {times} times that", in_words(&next))
@@ -227,10 +253,9 @@ impl Choice {
             false => String::new(),
         };
         format!(
-            "chose {}: least counted work of {} settings, about {}; position error {} m up to {} s, exact itself off by {} m at \
+            "chose {}: {reason} {}; position error {} m up to {} s, exact itself off by {} m at \
              most{certified}{next}",
             in_words(&self.chosen),
-            self.settings_tried.0,
             format::duration(work as f64 * 1e-9),
             format::digits(error, 1),
             format::time(self.compared),

@@ -50,6 +50,7 @@
 //! | `orders` | the order of each method in its knob |
 //! | `fit` | the order at which an error falls |
 //! | `accuracy` | the cheapest setting that meets an error |
+//! | `crowd`, `crowds` | what means over many seeds say beyond the horizon |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
 
@@ -58,6 +59,8 @@ mod axes;
 mod chart;
 mod clock;
 mod cost;
+mod crowd;
+mod crowds;
 mod deviation;
 mod displaced;
 mod figure;
@@ -84,6 +87,8 @@ pub use accuracy::{Choice, Miss, Tried, choose};
 pub use axes::{Axes, Cost as CostAxis, Error as ErrorAxis};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
+pub use crowd::{Crowd, FIGURES, Mean, crowd_run};
+pub use crowds::{crowd_report, crowd_rows, crowds};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
 pub use fit::{Fit, fit};

@@ -202,7 +202,7 @@ fn lock(setting: &Mutex<Setting>) -> std::sync::MutexGuard<'_, Setting> {
 }
 
 /// The results of tasks 0 to `count` that could be done, by at most so many threads, each taking the next task.
-fn side_by_side<T: Send>(
+pub(super) fn side_by_side<T: Send>(
     count: usize,
     jobs: usize,
     task: impl Fn(usize) -> Result<T, Interrupted> + Sync,
