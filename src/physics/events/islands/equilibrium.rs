@@ -47,15 +47,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
     let slack: Vec<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
-    let stopped = velocities(all, if nothing_approaches(&resting, &velocity) { &[] } else { &resting });
-    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
-    let costs = bodies.iter().zip(&velocity).zip(&slack).any(|((body, v), slack)| body.v.distance(*v) > DEAR * slack);
-    let only_fits = costs && approaches_by_rounding(bodies, &resting, &velocity);
-    if only_fits {
-        let squeezing = resting.iter().zip(&stopped.multipliers).filter(|(_, impulse)| **impulse > 0.0);
-        let v = restore(&inverse_mass, &velocity, &rows(squeezing.map(|(contact, _)| contact)));
-        bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
-    }
+    let (impulses, stopped) = stop_approaches(bodies, all, &resting, &slack);
     let opens = |contact: &Resting| {
         let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
@@ -65,8 +57,6 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
     let guess: Vec<f64> = closed.iter().map(|&index| loads[index]).collect();
     let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
-    let none = only_fits || stopped.multipliers.is_empty();
-    let impulses = if none { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() };
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];
         change(contact.a) || contact.b.is_some_and(change)
@@ -79,7 +69,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
         forces: vec![0.0; contacts.len()],
         fate: vec![Fate::Opening; contacts.len()],
         curved: false,
-        converged: stopped.converged() && held.converged(),
+        converged: stopped && held.converged(),
     };
     for (place, &body) in held.bodies.iter().enumerate() {
         settled.a[body] = held.vectors[place];
@@ -96,6 +86,25 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     settled.stop(bodies, tick);
     settled.let_go(bodies, &resting);
     settled
+}
+
+/// Stops what approaches, by impulses (N s, by contact); whether they were found to rounding.
+fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack: &[f64]) -> (Vec<f64>, bool) {
+    let none = vec![0.0; resting.len()];
+    if nothing_approaches(resting, all.velocity) {
+        return (none, true);
+    }
+    let stopped = velocities(all, resting);
+    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
+    let costs = |((body, v), slack): ((&Body, &DVec3), &f64)| body.v.distance(*v) > DEAR * slack;
+    let dear = bodies.iter().zip(all.velocity).zip(slack).any(costs);
+    if !(dear && approaches_by_rounding(bodies, resting, all.velocity)) {
+        return (stopped.multipliers.clone(), stopped.converged());
+    }
+    let squeezing = resting.iter().zip(&stopped.multipliers).filter(|(_, impulse)| **impulse > 0.0);
+    let v = restore(all.inverse_mass, all.velocity, &rows(squeezing.map(|(contact, _)| contact)));
+    bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+    (none, true)
 }
 
 /// Whether nothing approaches faster than rounding makes what moves along a wall seem to.
