@@ -5,7 +5,7 @@
 //! [`view`] → terminal. Imports run the other way; `tests/tidy.rs` enforces it. SI units throughout; `f64`; y is up.
 //!
 //! As a library there are three doors: [`scene`] makes scenes, [`physics`] runs them, [`measure`] says how far off they are;
-//! beside them [`audit`] judges a run, [`snapshot`] copies one, [`export`] writes rows. Every other module is the program's
+//! beside them [`audit`] judges a run, [`marks`] the trajectory of any program, [`snapshot`] copies one, [`export`] writes rows. Every other module is the program's
 //! own: public for its tests, not shown here, and free to change.
 //! The physics builds without the terminal and the command line: `default-features = false`. A whole program:
 //!
@@ -47,6 +47,7 @@ pub mod format;
 pub mod frame;
 #[doc(hidden)]
 pub mod geometry;
+pub mod marks;
 pub mod measure;
 pub mod physics;
 #[doc(hidden)]

@@ -32,7 +32,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{Failure, Generator, Met};
-use mended::{LABORIOUS, MENDED, MENDED_STACKS};
+use mended::{LABORIOUS, MENDED, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES};
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
 const ROOMS: Generator = Generator { scene: rooms::room_scene, halves: 20, budget: 20_000_000, boxed: true };
@@ -131,7 +131,13 @@ fn seeds_that_ever_failed_stay_mended() {
 
 #[test]
 fn small_scenes_that_ever_failed_or_went_on_for_ever_stay_mended() {
-    for (seeds, generator) in [(&[(151, 5)][..], &FUNNELS), (&[(257, 1)], &TUBES), (&MENDED_STACKS, &STACKS)] {
+    let mended = [
+        (&MENDED_FUNNELS[..], &FUNNELS),
+        (&MENDED_TUBES, &TUBES),
+        (&MENDED_STACKS, &STACKS),
+        (&MENDED_JOINTS, &JOINTS),
+    ];
+    for (seeds, generator) in mended {
         let (_, failures) = sweep(seeds, &|seed, halves, met| judged::check(generator, seed, halves, met));
         let shown: Vec<&str> = failures.iter().map(|failure| failure.text.as_str()).collect();
         assert!(failures.is_empty(), "{}\n{}", kinds(&failures), shown.join("\n"));

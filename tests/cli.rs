@@ -8,6 +8,8 @@ mod certify;
 mod config;
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/judge.rs"]
+mod judge;
 #[path = "cli/outputs.rs"]
 mod outputs;
 #[path = "cli/program.rs"]

@@ -149,7 +149,10 @@ fn merge_file(file: &[u8]) -> bool {
     let place = |line: u64| format!("mutant.csv:{line}");
     let placed = rows.into_iter().map(|(line, row)| Placed { place: place(line), row }).collect();
     let Ok(rows) = measure::merge(placed) else { return false };
-    let _ = (measure::report(&rows, Method::ALL, &[]), measure::figure(&rows, Method::ALL));
+    let _ = (
+        measure::report(&rows, Method::ALL, &[], measure::Axes::default()),
+        measure::figure(&rows, Method::ALL, measure::Axes::default(), ""),
+    );
     let mut table = Table::new::<TradeRow>(Format::Csv, Vec::new()).expect("memory");
     rows.iter().for_each(|row| table.write(row).expect("memory"));
     let written = table.finish().expect("memory");

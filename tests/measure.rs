@@ -1,13 +1,21 @@
 //! Does `measure` tell the truth: errors against closed forms, horizons against the prototypes', parts against the whole?
 
+#[path = "measure/accuracy.rs"]
+mod accuracy;
 #[path = "measure/arithmetic.rs"]
 mod arithmetic;
 #[path = "measure/certified.rs"]
 mod certified;
 #[path = "measure/command.rs"]
 mod command;
+#[path = "measure/crowds.rs"]
+mod crowds;
 #[path = "measure/figures.rs"]
 mod figures;
+#[path = "measure/floor.rs"]
+mod floor;
+#[path = "measure/judged.rs"]
+mod judged;
 #[allow(dead_code)] // each test crate uses what it needs
 #[path = "cli/program.rs"]
 mod program;
@@ -16,18 +24,25 @@ mod program;
 mod pty;
 #[path = "support/random.rs"]
 mod random;
+#[path = "measure/student.rs"]
+mod student;
 mod support;
 #[path = "support/watch.rs"]
 mod watch;
 
 use carom::export::TradeRow;
-use carom::measure::{Budget, Errors, Miss, Reference, Rung, Subject, choose, errors};
+use carom::measure::{Axes, Budget, Errors, Miss, Reference, Rung, Subject, choose, errors};
 use carom::physics::{Method, Scene};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
 use support::{ELASTIC, G, PAPER_LAW, changed, paper, paper_scene, room, scene, sphere, wall};
 
 const ON: &(dyn Fn() -> bool + Sync) = &|| true;
+
+/// What a command that succeeds writes to standard output.
+fn carom_of(arguments: &[&str]) -> String {
+    program::carom(arguments).succeeds().out
+}
 
 /// A sphere of 1 kg that falls for so long (s) from 10 m and meets nothing.
 fn drop_for(duration: f64) -> Scene {
@@ -123,7 +138,7 @@ fn a_run_that_stalls_says_so_and_is_judged_up_to_there() {
     let rung = Rung { method: Method::Paper, dt: Some(1e-2), tolerance: Some(1e-3) };
     let row = subject.measure(rung, ON).expect("it is not interrupted");
     assert!(row.note.to_string().starts_with("stalled at 10.") && row.until < 10.5, "{row:?}");
-    assert_eq!(carom::measure::front(&[row], &[Method::Paper]), [0; 0], "it does not compete");
+    assert_eq!(carom::measure::front(&[row], &[Method::Paper], Axes::default()), [0; 0], "it does not compete");
 }
 
 #[test]

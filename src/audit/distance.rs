@@ -64,19 +64,17 @@ impl Board {
 
     /// From the closest point of the wall to `p` (m), m.
     pub(super) fn offset(&self, p: DVec3) -> DVec3 {
+        if self.shares(p).iter().all(|share| (0.0..=1.0).contains(share)) {
+            // no edge is nearer; one beside the foot is as far, to rounding, from up to 1e-8 of the distance aside
+            return (0..2)
+                .fold(self.arm(p), |offset, _| self.basis.iter().fold(offset, |rest, e| rest - *e * e.dot(rest)));
+        }
         let mut nearest = DVec3::INFINITY;
         let mut propose = |offset: DVec3| {
             if offset.length_squared() < nearest.length_squared() {
                 nearest = offset;
             }
         };
-        if self.shares(p).iter().all(|share| (0.0..=1.0).contains(share)) {
-            let mut offset = self.arm(p);
-            for _ in 0..2 {
-                offset = self.basis.iter().fold(offset, |rest, e| rest - *e * e.dot(rest));
-            }
-            propose(offset);
-        }
         for (from, along) in [(DVec3::ZERO, self.s1), (DVec3::ZERO, self.s2), (self.s2, self.s1), (self.s1, self.s2)] {
             let arm = self.arm(p) - from;
             let share = (arm.dot(along) / along.dot(along)).clamp(0.0, 1.0);
@@ -95,6 +93,18 @@ impl Board {
 mod tests {
     use super::*;
     use glam::dvec3;
+
+    /// The point of a face is told from that of an edge beside it where their distances differ by less than rounding.
+    #[test]
+    fn beside_an_edge_the_foot_on_the_face_counts() {
+        let board = Board::new(dvec3(0.3, -0.2, 0.1), dvec3(2.0, 0.4, 0.0), dvec3(0.7, 0.5, 1.0));
+        for k in 0..1000 {
+            let (along, inside) = (f64::from(k) / 1000.0, f64::from(k % 17) * 1e-9 + 1e-10);
+            let foot = board.corner + board.s1 * along + board.s2 * inside;
+            let offset = board.offset(foot + board.normal * 0.3);
+            assert!((offset - board.normal * 0.3).length() < 1e-15, "{along} {inside}: {offset}");
+        }
+    }
 
     /// The least distance over a fine grid of the wall's points: never less than the true one, and close to it.
     #[test]

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
-use crate::physics::{Class, Contact, Kind, Model, State};
+use crate::physics::{Model, State};
 
 use super::finding::{Bodies, Fault, Findings};
-use super::overlap::is_summed_up;
 
 /// Ulps of the energy's terms that a run may gain at first; each impact may add one.
 const ULPS: f64 = 4096.0;
@@ -21,52 +20,39 @@ pub(super) struct Energy {
     /// Largest Σ of the energy's terms, each taken positive, J: what rounding is relative to.
     size: f64,
     impacts: u64,
-    /// What series of bounces that are summed up may have gained for a moment, J.
-    summed: f64,
 }
 
 impl Energy {
     pub(super) fn new(model: &Model, state: &State) -> Energy {
         let (least, size) = energy(model, state);
-        Energy { least, last: least, size, impacts: 0, summed: 0.0 }
+        Energy { least, last: least, size, impacts: 0 }
     }
 
-    /// By how much a state's energy is above the least seen, and what rounding allows, J; `impacts` since the last state.
-    pub(super) fn rise(&mut self, model: &Model, state: &State, impacts: u64) -> [f64; 2] {
-        let (now, size) = energy(model, state);
+    /// By how much a state's energy, with what is `hidden` of it (J), is above the least seen, and what rounding allows, J;
+    /// `impacts` since the last state.
+    pub(super) fn rise(&mut self, model: &Model, (state, hidden): (&State, f64), impacts: u64) -> [f64; 2] {
+        let (shown, size) = energy(model, state);
+        let now = shown + hidden;
         self.size = self.size.max(size);
         self.impacts += impacts;
         let rise = now - self.least;
         self.last = now;
         self.least = self.least.min(now);
         let ulps = ULPS + self.impacts as f64 + model.len() as f64;
-        [rise, ulps * f64::EPSILON * self.size + self.summed]
-    }
-
-    /// Allows for a series of bounces on a wall that rubs, of which an impact has been the last to be told: until it is over the
-    /// sphere goes on with the mean velocity that the bounces leave it, up a slope too, which the bounces pay for by then.
-    pub(super) fn allow_series(&mut self, model: &Model, state: &State, row: &Contact) {
-        let (law, i) = (&model.law, row.a);
-        let (e, press) = (law.wall_restitution, -model.acceleration(i).dot(row.normal));
-        let series = row.kind == Kind::Wall && law.tangential < 1.0 && 0.0 < e && e < 1.0 && press > 0.0;
-        if series && row.class == Class::Collide && is_summed_up(model, row) {
-            let lasts = 2.0 * row.separation_speed / (press * (1.0 - e));
-            let pull = model.masses[i] * model.acceleration(i).length();
-            self.summed += pull * state.v[i].length() * lasts;
-        }
+        [rise, ulps * f64::EPSILON * self.size]
     }
 
     /// Judges a state; `explained` (J) is what impacts and rests may have taken since the last one, if that is known.
     pub(super) fn look(
         &mut self,
         model: &Model,
-        state: &State,
+        (state, hidden): (&State, f64),
         impacts: u64,
         explained: Option<f64>,
         findings: &mut Findings,
     ) {
         let before = self.last;
-        let rise = self.rise(model, state, impacts);
+        let rise = self.rise(model, (state, hidden), impacts);
         findings.hold(Fault::Energy, state.t, Bodies::All, rise);
         if let Some(explained) = explained {
             let lost = [before - self.last - explained, MOTION * self.size];

@@ -11,4 +11,6 @@ pub struct Frame<'a> {
     pub contacts: &'a [Contact],
     /// The events told since the frame before.
     pub events: &'a [Contact],
+    /// Energy that the state does not show, J: [`Simulation::hidden_energy`](crate::physics::Simulation::hidden_energy).
+    pub hidden: f64,
 }

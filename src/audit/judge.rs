@@ -54,12 +54,13 @@ impl Judge {
     /// Judges the frame that a simulation has just completed; `events` are those told since the frame before.
     pub fn frame(&mut self, simulation: &Simulation, events: &[Contact]) {
         let (state, contacts) = (simulation.state(), simulation.contacts());
-        self.look(simulation.model(), &Frame { state: &state, contacts, events });
+        let hidden = simulation.hidden_energy();
+        self.look(simulation.model(), &Frame { state: &state, contacts, events, hidden });
     }
 
     /// Judges a frame.
     pub fn look(&mut self, model: &Model, frame: &Frame) {
-        let Frame { state, contacts, events } = *frame;
+        let Frame { state, contacts, events, hidden } = *frame;
         let found = &mut self.findings;
         if let Some(i) = (0..state.x.len()).find(|&i| !(state.x[i].is_finite() && state.v[i].is_finite())) {
             found.add(Fault::NotANumber, state.t, Bodies::Sphere(i), [f64::NAN, 0.0]);
@@ -76,8 +77,7 @@ impl Judge {
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
         let explained = self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
         let impacts = contacts.iter().filter(|row| row.class == Class::Collide).count();
-        contacts.iter().for_each(|row| self.energy.allow_series(model, state, row));
-        self.energy.look(model, state, impacts as u64, explained, found);
+        self.energy.look(model, (state, hidden), impacts as u64, explained, found);
         self.before.clone_from(state);
         self.held = held;
         self.answered.clear();
@@ -88,7 +88,7 @@ impl Judge {
     pub fn state(&mut self, model: &Model, state: &State, contacts: &[Contact]) {
         let promise = Promise::of(&self.settings);
         self.overlaps.look(model, state, contacts, promise, &mut self.findings);
-        self.energy.look(model, state, 0, None, &mut self.findings);
+        self.energy.look(model, (state, 0.0), 0, None, &mut self.findings);
     }
 
     /// What was found so far.

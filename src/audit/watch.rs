@@ -117,16 +117,20 @@ impl Watch {
         }
         let impacts = simulation.tallies().impacts;
         let struck = impacts.saturating_sub(std::mem::replace(&mut self.impacts, impacts));
-        self.state(model, &state, struck);
+        self.see(model, (&state, simulation.hidden_energy()), struck);
     }
 
-    /// Looks at a state, before which `impacts` have happened since the last one.
+    /// Looks at a state that shows all its energy, before which `impacts` have happened since the last one.
     pub fn state(&mut self, model: &Model, state: &State, impacts: u64) {
+        self.see(model, (state, 0.0), impacts);
+    }
+
+    fn see(&mut self, model: &Model, (state, hidden): (&State, f64), impacts: u64) {
         let deepest = Promise::alarm(&self.settings);
         if let Some((degree, key)) = self.overlaps.worst(model, &state.x) {
             note(&mut self.alarm.overlap, Fault::Overlap, state.t, key.into(), [degree, deepest]);
         }
-        let rise = self.energy.rise(model, state, impacts);
+        let rise = self.energy.rise(model, (state, hidden), impacts);
         let silent = self.alarm.energy.is_none();
         note(&mut self.alarm.energy, Fault::Energy, state.t, Bodies::All, rise);
         if silent && self.alarm.energy.is_some() {

@@ -2,9 +2,13 @@
 
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::growth::Growth;
 use super::shadow::Shadow;
 use crate::physics::{Contact, Progress, Simulation, Until};
 use crate::scene::{Method, Scene, Settings};
+
+/// Pairs of bodies that a certificate looks at, at most: half a minute.
+const MOST_LOOKS: u64 = 1_000_000_000;
 
 /// What is certified of a run by `exact`.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +24,7 @@ pub struct Certificate {
     pub events: u64,
     /// Pairs of bodies that were looked at to show that no other contact comes.
     pub looks: u64,
+    growth: Growth,
     places: Vec<[Double; 3]>,
 }
 
@@ -28,27 +33,38 @@ impl Certificate {
     pub fn place(&self, i: usize) -> Option<[Double; 3]> {
         self.places.get(i).copied()
     }
+
+    /// Until when the error is at most `asked` (m), s: `until`, if it never is larger; else the last moment before which it
+    /// cannot have passed `asked`, or half of it, since it is kept by powers of two.
+    pub fn within(&self, asked: f64) -> f64 {
+        if self.error <= asked { self.until } else { self.growth.first(asked).min(self.until) }
+    }
 }
 
 /// Runs a scene by `exact` up to `until` (s) and certifies what it can; nothing if `go_on`, asked every few milliseconds,
 /// says no.
 pub fn certify(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<Certificate> {
-    let (found, at_its_end) = pursue(scene, until, go_on)?;
+    certify_within(scene, until, MOST_LOOKS, go_on)
+}
+
+/// The same with at most so many looks at pairs of bodies, some 30 ns each.
+pub fn certify_within(scene: &Scene, until: f64, looks: u64, go_on: &dyn Fn() -> bool) -> Option<Certificate> {
+    let (found, at_its_end) = pursue(scene, (until, looks), go_on)?;
     if at_its_end {
         return Some(found);
     }
     // what ends it was seen only after later events: once more, up to there
-    let (again, _) = pursue(scene, found.until, go_on)?;
+    let (again, _) = pursue(scene, (found.until, looks), go_on)?;
     let ending = found.ending.map(|ending| Ending { time: again.until, ..ending });
     Some(Certificate { ending, ..again })
 }
 
 /// The certificate of a run, and whether the shadow stopped where it ends.
-fn pursue(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<(Certificate, bool)> {
+fn pursue(scene: &Scene, (until, looks): (f64, u64), go_on: &dyn Fn() -> bool) -> Option<(Certificate, bool)> {
     let settings = Settings { method: Method::Exact, dt: until.max(f64::MIN_POSITIVE), tolerance: 0.0 };
     let mut run = Simulation::new(scene, settings);
     run.record_events(true);
-    let mut pursuit = Pursuit { shadow: Shadow::new(scene), until, events: 0 };
+    let mut pursuit = Pursuit { shadow: Shadow::new(scene, looks), until, events: 0 };
     if pursuit.shadow.is_too_large() {
         return Some((pursuit.nothing(), true));
     }
@@ -98,7 +114,7 @@ impl Pursuit {
     fn nothing(self) -> Certificate {
         let ending = Some(Ending { time: 0.0, bodies: None, cause: Cause::Spent });
         let places = self.shadow.bodies.iter().map(|body| body.now.x.components()).collect();
-        Certificate { until: 0.0, error: 0.0, ending, events: 0, looks: 0, places }
+        Certificate { until: 0.0, error: 0.0, ending, events: 0, looks: 0, growth: Growth::default(), places }
     }
 
     fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
@@ -117,11 +133,13 @@ impl Pursuit {
         let known = |doubt: &Ending| ending.as_ref().is_some_and(|ending| ending.bodies == doubt.bodies);
         let ending = doubt.filter(|doubt| !known(doubt)).or(ending);
         let t = Double::from(until);
+        let mut growth = shadow.growth.clone();
+        shadow.bodies.iter().for_each(|body| growth.note(body.told.0, body.error(t)));
         let error = shadow.bodies.iter().map(|body| body.error(t)).fold(shadow.error, f64::max);
         let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
         let ending = ending.map(|ending| Ending { time: until, ..ending });
         let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t);
-        (Certificate { until, error, ending, events, looks: shadow.looks, places }, at_its_end)
+        (Certificate { until, error, ending, events, looks: shadow.looks, growth, places }, at_its_end)
     }
 }
 

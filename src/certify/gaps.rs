@@ -9,9 +9,6 @@ use super::start::{Start, overlap};
 use super::vector::Vector;
 use crate::physics::Kind;
 
-/// Pairs of bodies that a certificate looks at, at most: half a minute.
-const MOST_LOOKS: u64 = 1_000_000_000;
-
 /// Pairs of bodies that are looked at without asking whether to go on, at most: some seconds.
 const MOST_AT_ONCE: u64 = 100_000_000;
 
@@ -38,7 +35,7 @@ impl Shadow {
     /// Refuses if sphere `i` may touch anything from its last event to `t` (s), but for what it touches then.
     pub(super) fn clear_until(&mut self, i: usize, t: Double, met: Option<(Kind, usize)>) -> Result<(), Ending> {
         self.looks += (self.bodies.len() + self.plates.len()) as u64;
-        if self.looks > MOST_LOOKS {
+        if self.looks > self.most_looks {
             return Err(Ending { time: self.bodies[i].now.t.value(), bodies: None, cause: Cause::Spent });
         }
         let first = (0..self.plates.len())

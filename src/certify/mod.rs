@@ -25,6 +25,7 @@
 //! | `clear`, `gaps` | that nothing else touches; by one obstacle, by all |
 //! | `body`, `shadow` | a sphere, and all of them, from event to event |
 //! | `ending` | why a certificate ends |
+//! | `growth` | when the error became how large |
 //! | `certificate` | `exact` and the shadow side by side; begin here |
 
 mod body;
@@ -34,6 +35,7 @@ mod course;
 mod double;
 mod ending;
 mod gaps;
+mod growth;
 mod law;
 mod obstacle;
 mod shadow;
@@ -42,6 +44,6 @@ mod support;
 mod touching;
 mod vector;
 
-pub use certificate::{Certificate, certify};
+pub use certificate::{Certificate, certify, certify_within};
 pub use double::Double;
 pub use ending::{Cause, Ending};

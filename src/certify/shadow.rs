@@ -7,6 +7,7 @@ use super::clear::Shape;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::growth::Growth;
 use super::law;
 use super::obstacle::{Part, Plate};
 use super::start::{AT_LOAD, Start};
@@ -28,10 +29,14 @@ pub(super) struct Shadow {
     pub(super) bodies: Vec<Body>,
     /// Pairs of bodies looked at.
     pub(super) looks: u64,
+    /// How many of them a certificate may take.
+    pub(super) most_looks: u64,
     /// Spheres changed since `exact` was last looked at.
     changed: Vec<usize>,
     /// The largest distance of `exact` from the shadow so far, m.
     pub(super) error: f64,
+    /// When it became how large.
+    pub(super) growth: Growth,
 }
 
 fn shape(plate: &Plate, wall: &crate::scene::Wall) -> (DVec3, Shape) {
@@ -40,7 +45,7 @@ fn shape(plate: &Plate, wall: &crate::scene::Wall) -> (DVec3, Shape) {
 }
 
 impl Shadow {
-    pub(super) fn new(scene: &Scene) -> Shadow {
+    pub(super) fn new(scene: &Scene, most_looks: u64) -> Shadow {
         let plates: Vec<Plate> = scene.walls.iter().map(Plate::new).collect();
         let body = |sphere: &crate::scene::Sphere| {
             let mass = Double::from(sphere.mass);
@@ -56,8 +61,10 @@ impl Shadow {
             plates,
             bodies: scene.spheres.iter().map(body).collect(),
             looks: 0,
+            most_looks,
             changed: Vec::new(),
             error: 0.0,
+            growth: Growth::default(),
         }
     }
 
@@ -244,6 +251,7 @@ impl Shadow {
             if error.is_nan() || error > body.radius.value() {
                 return Err(Ending { time: body.now.t.value(), bodies: None, cause: Cause::Parted });
             }
+            self.growth.note(body.told.0, error);
             body.told = (state.t, state.x[i], state.v[i]);
             self.error = self.error.max(error);
         }

@@ -10,7 +10,8 @@ use clap_complete::Shell;
 use super::numbers;
 use super::target::Target;
 use crate::config;
-use crate::measure::Shard;
+use crate::export::Columns;
+use crate::measure::{CostAxis, ErrorAxis, Shard};
 use crate::printable;
 use crate::scene::{Method, Settings};
 use crate::view::{Colors, Marker};
@@ -58,6 +59,8 @@ pub(super) enum Command {
     Replay(Replay),
     /// Measure how much accuracy costs how much time
     Measure(Measure),
+    /// Mark trajectories of any program against exact, or against each other
+    Judge(Judge),
     /// Measure known results of physics and mathematics on this machine
     Verify(Verify),
     /// Print the default configuration, a file to start one's own from
@@ -229,13 +232,72 @@ pub(super) struct Measure {
     /// Draw the trade as a figure; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) svg: Option<Target>,
+    /// Write every row as JSON, an object a line, with the command that repeats it and the machine; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
+    /// The cost across: cpu, gaps, events, frames or dt
+    #[arg(long, value_name = "COST", default_value = "cpu", value_parser = cost_axis())]
+    pub(super) x: CostAxis,
+    /// The error up: position, time (of the first impacts), energy or depth (of overlap)
+    #[arg(long, value_name = "ERROR", default_value = "position", value_parser = error_axis())]
+    pub(super) y: ErrorAxis,
+    /// Processor time after which a setting is given up and listed as failed, s [default: never]
+    #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) timeout: Option<f64>,
+    /// The horizon is where the certified error of exact exceeds this, m
+    #[arg(long, value_name = "E", default_value = "1e-6", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) error: f64,
+    /// Judge a crowd beyond its horizon instead: means and standard errors over N runs that begin a hair aside
+    #[arg(long, value_name = "N", value_parser = numbers::count, conflicts_with_all = ["shard", "merge", "svg"])]
+    pub(super) crowd: Option<usize>,
     /// Measure only part I of N, I from 1
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     pub(super) shard: Option<Shard>,
     /// Join the CSV files of parts instead of measuring
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs"],
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs", "timeout"],
           value_hint = ValueHint::FilePath)]
     pub(super) merge: Vec<PathBuf>,
+}
+
+const JUDGE: &str = "\
+A FILE has the columns time,sphere,x,y,z,vx,vy,vz (s, m, m/s), separated by commas, semicolons or tabs, in the order of
+time; velocities may be missing, and `sphere` where there is one. docs/measure.md tells what each figure means.
+Exit status: 0 everything passes, 1 something fails, 2 a file cannot be read.";
+
+/// Mark trajectories of any program.
+#[derive(Debug, Args)]
+#[command(after_help = JUDGE)]
+pub(super) struct Judge {
+    /// Trajectories as CSV, one file a program or setting; - is standard input
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) files: Vec<OsString>,
+    /// Scene file or built-in name that they are of
+    #[arg(long, value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub(super) scene: OsString,
+    /// Largest position error that passes, m [default: nothing fails]
+    #[arg(long, value_name = "E", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) tolerance: Option<f64>,
+    /// Compare up to this time, s [default: the scene's duration]
+    #[arg(long, value_name = "T", value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) until: Option<f64>,
+    /// What the files call our columns [default: as we do]
+    #[arg(long, value_name = "THEIRS=OURS,…", value_parser = Columns::parse)]
+    pub(super) columns: Option<Columns>,
+    /// Hold them against this trajectory instead of exact
+    #[arg(long, value_name = "FILE2", value_hint = ValueHint::FilePath)]
+    pub(super) against: Option<OsString>,
+    /// The steps with which one program made the files, s, in their order: fits the order of convergence
+    #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = numbers::positive, allow_hyphen_values = true)]
+    pub(super) dt: Vec<f64>,
+    /// Files marked side by side [default: the processors there are]
+    #[arg(long, value_name = "N", value_parser = numbers::count)]
+    pub(super) jobs: Option<usize>,
+    /// Write every figure as JSON, an object a line and file; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
+    pub(super) json: Option<Target>,
+    /// Draw the errors over time of up to eight files; - is standard output
+    #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
+    pub(super) svg: Option<Target>,
 }
 
 #[derive(Debug, Args)]
@@ -264,7 +326,7 @@ pub(super) struct Solver {
     /// Intersection tolerance, a degree [default: the scene's]
     #[arg(long, value_name = "D", value_parser = numbers::not_negative, allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Choose the cheapest method and setting that meets this position error, m, by a few seconds of trying
+    /// Choose the method and setting of least counted work that meets this position error, m, by trying
     #[arg(long, value_name = "E", value_parser = numbers::positive, allow_hyphen_values = true,
           conflicts_with_all = ["dt", "tolerance"])]
     accuracy: Option<f64>,
@@ -365,6 +427,16 @@ pub(super) enum Format {
 fn method() -> impl TypedValueParser<Value = Method> {
     let names = PossibleValuesParser::new(Method::ALL.iter().map(|method| method.name()));
     names.try_map(|name| Method::from_name(&name).ok_or("no such method"))
+}
+
+fn cost_axis() -> impl TypedValueParser<Value = CostAxis> {
+    let names = PossibleValuesParser::new(CostAxis::ALL.iter().map(|(name, _)| *name));
+    names.try_map(|name| CostAxis::ALL.iter().find(|axis| axis.0 == name).map(|axis| axis.1).ok_or("no such cost"))
+}
+
+fn error_axis() -> impl TypedValueParser<Value = ErrorAxis> {
+    let names = PossibleValuesParser::new(ErrorAxis::ALL.iter().map(|(name, _)| *name));
+    names.try_map(|name| ErrorAxis::ALL.iter().find(|axis| axis.0 == name).map(|axis| axis.1).ok_or("no such error"))
 }
 
 fn target() -> impl TypedValueParser<Value = Target> {

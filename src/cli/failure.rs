@@ -25,6 +25,8 @@ pub(super) enum Failure {
     Failed(String),
     /// The work could not be done, and the reasons are printed already.
     Told,
+    /// An input is none, and what is wrong with it is printed already.
+    BadInput,
     /// The options are each right, but not together: one full sentence.
     Usage(String),
     /// The reader of our output has gone.
@@ -49,6 +51,7 @@ impl Failure {
             Failure::Clap(error) => explain(error),
             Failure::Failed(sentence) => say(&sentence, FAILED),
             Failure::Told => ExitCode::from(FAILED),
+            Failure::BadInput => ExitCode::from(USAGE),
             Failure::Usage(sentence) => say(&sentence, USAGE),
             Failure::ClosedPipe => ExitCode::from(SIGNALLED + SIGPIPE),
             Failure::Signal(number) => ExitCode::from(SIGNALLED.saturating_add(number)),

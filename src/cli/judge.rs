@@ -1,90 +1,122 @@
-//! What watches a run of `carom run`: always the watch, and with `--check` the judge, to which every frame is shown. Neither
-//! changes a bit of the run; the judge only costs time.
+//! `carom judge FILE…`: trajectories of any program, marked against `exact` or against each other.
 
-use crate::audit::{Judge, Watch};
-use crate::physics::{Contact, Progress, Simulation, State, Until};
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::thread;
 
-/// Findings that are told one by one.
-const TOLD: usize = 10;
+use super::arguments::Judge;
+use super::failure::Failure;
+use super::output::Output;
+use super::signals::Signals;
+use super::target::{Target, refuse_shared};
+use crate::export::{Columns, Format, MarkRow, States, Table};
+use crate::marks::{self, Exam, Mark, Marked, NoMark, Source};
+use crate::printable;
+use crate::scene;
 
-/// The watch, and the judge if it was asked for.
-pub(super) struct Jury {
-    watch: Watch,
-    judge: Option<Judge>,
-    /// End of the run, s: what happens later is no part of it.
-    until: f64,
-    /// Whether a frame has just been completed that the judge has not seen.
-    fresh: bool,
-    /// Events of the frame in progress, for the judge.
-    events: Vec<Contact>,
+pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure> {
+    let outputs = [("--json", arguments.json.as_ref()), ("--svg", arguments.svg.as_ref())];
+    let named = arguments.files.iter().chain(&arguments.against).filter(|word| *word != "-").map(PathBuf::from);
+    let paths: Vec<PathBuf> = named.collect();
+    let inputs: Vec<(&str, &Path)> = paths.iter().map(|path| ("the trajectory", path.as_path())).collect();
+    refuse_shared(&outputs, &inputs)?;
+    refuse_steps(arguments)?;
+    let opened = scene::open(&arguments.scene).map_err(|error| Failure::Usage(error.to_string()))?;
+    opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
+    let files = Files::open(arguments)?;
+    let go_on = || signals.check().is_ok();
+    let until = arguments.until.unwrap_or(opened.scene.duration);
+    let interrupted = || signals.check().err().unwrap_or(Failure::Told);
+    let exam = Exam::new(&opened.scene, until, arguments.tolerance, &go_on).ok_or_else(interrupted)?;
+    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    let marked = marks::side_by_side(arguments.files.len(), jobs, |index| {
+        let word = &arguments.files[index];
+        (printable::name(word), mark(&exam, word, arguments, &go_on))
+    });
+    let marked = marked.ok_or_else(interrupted)?;
+    files.write(&exam, &opened.key, arguments, &marked)?;
+    if marked.iter().any(|marked| marked.mark.is_err()) {
+        return Err(Failure::BadInput);
+    }
+    let fails = marked.iter().any(|marked| marked.mark.as_ref().is_ok_and(|mark| mark.passes == Some(false)));
+    if fails { Err(Failure::Told) } else { Ok(()) }
 }
 
-impl Jury {
-    /// For a simulation that has just begun.
-    pub(super) fn new(simulation: &Simulation, until: f64, check: bool) -> Jury {
-        let judge = check.then(|| Judge::of(simulation));
-        Jury { watch: Watch::new(simulation), judge, until, fresh: false, events: Vec::new() }
+/// Refuses steps that are not one for each file, and standard input read twice.
+fn refuse_steps(arguments: &Judge) -> Result<(), Failure> {
+    let (steps, files) = (arguments.dt.len(), arguments.files.len());
+    if steps > 0 && steps != files {
+        return Err(Failure::Usage(format!("--dt has {steps} steps for {files} files; wanted is one for each")));
     }
-
-    /// Advances by a slice, towards `time` (s); with a judge by a frame at most.
-    pub(super) fn advance(&mut self, simulation: &mut Simulation, time: f64) -> Progress {
-        let (until, slice) = match self.judge {
-            Some(_) => (Until::Frame, Simulation::SLICE),
-            None => (Until::Time(time), Simulation::SLICE.min(self.watch.slice(simulation.model()))),
-        };
-        let progress = simulation.advance(until, slice);
-        self.fresh = progress == Progress::Reached;
-        if simulation.time() <= self.until {
-            self.watch.look(simulation, progress == Progress::Yielded && self.judge.is_none());
-        }
-        progress
+    let piped = arguments.files.iter().chain(&arguments.against).filter(|word| *word == "-").count();
+    if piped > 1 || (piped > 0 && arguments.against.is_some() && files > 1) {
+        return Err(Failure::Usage("standard input can be read once only; give the others their names".into()));
     }
+    Ok(())
+}
 
-    /// Shows the judge the frame that has just ended, if one has.
-    pub(super) fn judge(&mut self, simulation: &Simulation, events: &[Contact]) {
-        let Some(judge) = &mut self.judge else { return };
-        self.events.extend_from_slice(events);
-        if !std::mem::take(&mut self.fresh) {
-            return;
-        }
-        if simulation.time() <= self.until {
-            judge.frame(simulation, &self.events);
-        }
-        self.events.clear();
-    }
-
-    /// The last state of the run.
-    pub(super) fn close(&mut self, simulation: &Simulation, end: &State) {
-        self.watch.state(simulation.model(), end, 0);
-        if let Some(judge) = &mut self.judge {
-            judge.state(simulation.model(), end, simulation.contacts());
+fn mark(exam: &Exam, word: &OsStr, arguments: &Judge, go_on: &dyn Fn() -> bool) -> Result<Mark, NoMark> {
+    let columns = arguments.columns.clone().unwrap_or_default();
+    let source = source(word, &columns, exam.spheres())?;
+    match &arguments.against {
+        None => exam.mark(source, go_on),
+        Some(other) => {
+            let name = printable::name(other);
+            let other = self::source(other, &columns, exam.spheres());
+            let other = other.map_err(|error| NoMark::Unreadable(error.of(&name)))?;
+            exam.mark_against(source, other, go_on)
         }
     }
+}
 
-    /// What the closing line says of it: empty if nothing is wrong and no check was asked for.
-    pub(super) fn words(&self) -> String {
-        let alarm = self.watch.alarm();
-        let alarm = if alarm.is_silent() { String::new() } else { format!(" alarm={}", alarm.words()) };
-        let check = match self.judge.as_ref().map(|judge| judge.findings().count()) {
-            None => String::new(),
-            Some(0) => " check=ok".into(),
-            Some(count) => format!(" check={count}"),
-        };
-        alarm + &check
+fn source(word: &OsStr, columns: &Columns, spheres: usize) -> Result<Source, crate::export::ReadError> {
+    let reader: Box<dyn Read + Send> = if word == "-" {
+        Box::new(io::stdin())
+    } else {
+        let unreadable = |error: io::Error| crate::export::ReadError::from(printable::cause(&error));
+        Box::new(File::open(word).map_err(unreadable)?)
+    };
+    States::new(reader, columns, spheres)
+}
+
+/// Where the results go, opened before any work is done for nothing.
+struct Files {
+    json: Option<Output>,
+    svg: Option<Output>,
+    /// Whether the report has standard output for itself.
+    report_on_stdout: bool,
+}
+
+impl Files {
+    fn open(arguments: &Judge) -> Result<Files, Failure> {
+        let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
+        let taken = [&arguments.json, &arguments.svg].into_iter().flatten().any(Target::is_stdout);
+        Ok(Files { json: open(&arguments.json)?, svg: open(&arguments.svg)?, report_on_stdout: !taken })
     }
 
-    /// A sentence for each thing that is wrong, the first few of them.
-    pub(super) fn sentences(&self) -> Vec<String> {
-        let alarms = self.watch.alarm().sentences().into_iter().map(|sentence| format!("ALARM {sentence}"));
-        let rows = self.judge.as_ref().map(|judge| judge.findings().rows()).unwrap_or_default();
-        let more = rows.len().saturating_sub(TOLD);
-        let findings = rows.iter().take(TOLD).map(|finding| format!("check: {finding}"));
-        let more = (more > 0).then(|| format!("check: and {more} findings more"));
-        alarms.chain(findings).chain(more).collect()
-    }
-
-    /// Whether the judge was asked and has found something.
-    pub(super) fn condemns(&self) -> bool {
-        self.judge.as_ref().is_some_and(|judge| !judge.findings().is_empty())
+    fn write(self, exam: &Exam, scene: &str, arguments: &Judge, marked: &[Marked]) -> Result<(), Failure> {
+        let other = arguments.against.as_ref().map(|word| printable::name(word));
+        if let Some(json) = self.json {
+            let mut table = Table::new::<MarkRow>(Format::JsonLines, json)?;
+            marked.iter().try_for_each(|marked| table.write(&marks::row(exam, other.is_none(), marked)))?;
+            table.finish()?.finish()?;
+        }
+        if let Some(mut svg) = self.svg {
+            svg.write_all(marks::figure(exam, scene, other.as_deref(), marked).as_bytes())?;
+            svg.finish()?;
+        }
+        let mut text = marks::report(exam, scene, other.as_deref(), marked);
+        if !arguments.dt.is_empty() {
+            text = text + "\n" + &marks::order(&arguments.dt, marked);
+        }
+        if self.report_on_stdout {
+            let mut out = Output::stdout();
+            out.write_all(text.as_bytes())?;
+            return out.finish();
+        }
+        let _ = io::stderr().write_all(text.as_bytes()); // if nobody can read it, the results still stand
+        Ok(())
     }
 }

@@ -12,8 +12,8 @@ use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
-use crate::export::{Format, Table, TradeRow, read_trade};
-use crate::measure::{self, Advance, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
+use crate::export::{CrowdRow, Format, Table, TradeNote, TradeRow, read_trade};
+use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::printable;
 use crate::scene::{self, Method, Opened};
 
@@ -27,10 +27,13 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
     refuse_shared(&outputs(arguments), &[])?;
     let merged: Vec<_> = arguments.merge.iter().map(|path| ("the part", path.as_path())).collect();
     refuse_shared(&outputs(arguments), &merged)?;
+    if let Some(seeds) = arguments.crowd {
+        return crowd(arguments, seeds, signals);
+    }
     let files = Files::open(arguments)?;
     if !arguments.merge.is_empty() {
         let rows = measure::merge(read_all(&arguments.merge)?).map_err(|error| Failure::Failed(error.to_string()))?;
-        return files.write(&rows, &allowed(arguments), &[]);
+        return files.write(&rows, arguments, &[]);
     }
     let measured = sweep(arguments, signals)?;
     let (interrupted, done) = (signals.check(), measured.rows.len());
@@ -38,15 +41,15 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
         note(&format!("interrupted: none of {} settings is done; nothing is written", measured.wanted));
         return interrupted;
     }
-    files.write(&measured.rows, &allowed(arguments), &measured.yardsticks)?;
+    files.write(&measured.rows, arguments, &measured.yardsticks)?;
     if interrupted.is_err() {
         note(&format!("interrupted: {done} of {} settings are done and kept", measured.wanted));
     }
     interrupted
 }
 
-fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 2] {
-    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref())]
+fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 3] {
+    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref()), ("--json", arguments.json.as_ref())]
 }
 
 /// Which methods compete on the front: `exact`, the yardstick, only if it was asked for.
@@ -78,6 +81,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
     let sweep = Sweep::new(scenes, ladder, arguments.shard.unwrap_or(Shard::WHOLE));
     let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
+    let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY)).asking(arguments.error);
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let bar = progress_bar(sweep.wanted());
     let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
@@ -116,6 +120,7 @@ fn progress_bar(wanted: usize) -> ProgressBar {
 struct Files {
     csv: Option<Output>,
     svg: Option<Output>,
+    json: Option<Output>,
     /// Whether the report has standard output for itself.
     report_on_stdout: bool,
 }
@@ -124,20 +129,44 @@ impl Files {
     fn open(arguments: &Measure) -> Result<Files, Failure> {
         let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
         let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
-        Ok(Files { csv: open(&arguments.csv)?, svg: open(&arguments.svg)?, report_on_stdout: !taken })
+        let (csv, svg, json) = (open(&arguments.csv)?, open(&arguments.svg)?, open(&arguments.json)?);
+        Ok(Files { csv, svg, json, report_on_stdout: !taken })
     }
 
-    fn write(self, rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick]) -> Result<(), Failure> {
+    fn write_crowd(self, text: &str, rows: &[CrowdRow]) -> Result<(), Failure> {
+        for (format, file) in [(Format::Csv, self.csv), (Format::JsonLines, self.json)] {
+            let Some(file) = file else { continue };
+            let mut table = Table::new::<CrowdRow>(format, file)?;
+            rows.iter().try_for_each(|row| table.write(row))?;
+            table.finish()?.finish()?;
+        }
+        if self.report_on_stdout {
+            let mut out = Output::stdout();
+            out.write_all(text.as_bytes())?;
+            return out.finish();
+        }
+        let _ = io::stderr().write_all(text.as_bytes()); // if nobody can read it, the results still stand
+        Ok(())
+    }
+
+    fn write(self, rows: &[TradeRow], arguments: &Measure, yardsticks: &[Yardstick]) -> Result<(), Failure> {
+        let (allowed, axes) = (&allowed(arguments)[..], Axes { x: arguments.x, y: arguments.y });
+        let (machine, command) = (machine(), command());
+        if let Some(json) = self.json {
+            let mut table = Table::new::<TradeNote>(Format::JsonLines, json)?;
+            rows.iter().try_for_each(|row| table.write(&TradeNote::of(row, &machine)))?;
+            table.finish()?.finish()?;
+        }
         if let Some(csv) = self.csv {
             let mut table = Table::new::<TradeRow>(Format::Csv, csv)?;
             rows.iter().try_for_each(|row| table.write(row))?;
             table.finish()?.finish()?;
         }
         if let Some(mut svg) = self.svg {
-            svg.write_all(measure::figure(rows, allowed).as_bytes())?;
+            svg.write_all(measure::figure(rows, allowed, axes, &format!("{command}; {machine}")).as_bytes())?;
             svg.finish()?;
         }
-        let text = measure::report(rows, allowed, yardsticks);
+        let text = measure::report(rows, allowed, yardsticks, axes);
         if self.report_on_stdout {
             let mut out = Output::stdout();
             out.write_all(text.as_bytes())?;
@@ -159,4 +188,46 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }
     Ok(all)
+}
+
+/// Settings of a crowd unless told otherwise: a step and half of it, a tolerance.
+const CROWD: ([f64; 2], f64) = ([1e-2, 5e-3], 1e-6);
+
+/// `--crowd`: the figures of each scene's crowd.
+fn crowd(arguments: &Measure, seeds: usize, signals: &Signals) -> Result<(), Failure> {
+    let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
+    let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
+    let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
+    refuse_shared(&outputs(arguments), &inputs)?;
+    let files = Files::open(arguments)?;
+    let given = ladder(arguments);
+    let (dt, tolerances) = (given.dt.unwrap_or(CROWD.0.to_vec()), given.tolerances.unwrap_or(vec![CROWD.1]));
+    let rungs = Ladder { methods: given.methods, dt: Some(dt), tolerances: Some(tolerances) }.rungs();
+    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    let timeout = arguments.timeout.unwrap_or(f64::INFINITY);
+    let (mut text, mut rows) = (String::new(), Vec::new());
+    for opened in &opened {
+        let limits = (seeds as u64, timeout);
+        let found = measure::crowds(&opened.scene, &rungs, limits, jobs, &|| signals.check().is_ok());
+        let found = found.ok_or_else(|| signals.check().err().unwrap_or(Failure::Told))?;
+        text += &measure::crowd_report(&opened.key, opened.scene.duration, &found);
+        rows.extend(measure::crowd_rows(&opened.key, &found));
+    }
+    files.write_crowd(&text, &rows)
+}
+
+/// What the timings are of: processor, cores, system, version.
+fn machine() -> String {
+    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    let model = model.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let (system, version) = (std::env::consts::OS, env!("CARGO_PKG_VERSION"));
+    printable::escaped(&format!("{model}, {cores} cores, {system}, carom {version}"))
+}
+
+/// The command line that was given.
+fn command() -> String {
+    let words: Vec<String> = std::env::args_os().skip(1).map(|word| printable::name(&word)).collect();
+    format!("carom {}", words.join(" "))
 }

@@ -8,7 +8,7 @@
 //! | `failure` | how a command can end, its exit code and its one line |
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
-//! | `judge` | what watches and judges a run of `carom run` |
+//! | `jury` | what watches and judges a run of `carom run` |
 //! | `place` | which file a word leads to |
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
@@ -28,6 +28,7 @@ mod defaults;
 mod failure;
 mod frames;
 mod judge;
+mod jury;
 mod lines;
 mod list;
 mod man;
@@ -89,6 +90,7 @@ fn without_screen(command: &Command, signals: &Signals) -> Result<(), Failure> {
         Command::Render(arguments) => render::render(arguments, signals),
         Command::Record(arguments) => record::record(arguments, signals),
         Command::Replay(arguments) => replay::replay(arguments, signals),
+        Command::Judge(arguments) => judge::judge(arguments, signals),
         Command::Measure(arguments) => measure::measure(arguments, signals),
         Command::Verify(arguments) => verify::verify(arguments, signals),
         Command::Config => defaults::defaults(),

@@ -8,7 +8,7 @@ use super::accuracy;
 use super::arguments::Run;
 use super::certified::{self, Certified};
 use super::failure::{Failure, note};
-use super::judge::Jury;
+use super::jury::Jury;
 use super::output::Output;
 use super::rows::refuse_too_many;
 use super::signals::Signals;

@@ -6,14 +6,23 @@
 //! |---|---|
 //! | `table` | what a row is, and a table of them under way |
 //! | `rows` | a state, an event |
+//! | `states` | states of any program, read back |
+//! | `crowd` | a figure of a crowd |
+//! | `mark` | a trajectory marked |
 //! | `trade`, `note` | a setting measured on a scene, and reasons to doubt its figures |
 
+mod crowd;
+mod mark;
 mod note;
 mod rows;
+mod states;
 mod table;
 mod trade;
 
+pub use crowd::CrowdRow;
+pub use mark::MarkRow;
 pub use note::Note;
 pub use rows::{EventRow, StateRow};
+pub use states::{Columns, Moment, States};
 pub use table::{Format, Row, Table};
-pub use trade::{ReadError, TradeRow, read_trade};
+pub use trade::{ReadError, TradeNote, TradeRow, read_trade};

@@ -9,7 +9,7 @@ use super::table::Row;
 use crate::printable;
 
 /// One setting on one scene. An empty cell: the method has no such knob, or there is no such figure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TradeRow {
     /// The scene's key.
     pub scene: String,
@@ -23,6 +23,10 @@ pub struct TradeRow {
     pub until: f64,
     /// Up to when positions mean something, s; empty if they do up to the end.
     pub horizon: Option<f64>,
+    /// Up to when the reference is certified to the error asked for, s; empty if it is not `exact`.
+    pub certified: Option<f64>,
+    /// How far the reference itself may be off up to there, m: no position error below it means anything.
+    pub floor: Option<f64>,
     /// Largest |x − x_ref| of any sphere at any instant up to the horizon, m.
     pub position_error: Option<f64>,
     /// Largest time error of the reference's first 10 impacts, s; empty if the run lacks one of them.
@@ -37,8 +41,14 @@ pub struct TradeRow {
     pub impacts: u64,
     /// Degree evaluations.
     pub evaluations: u64,
+    /// Impacts, rests and releases of the whole run.
+    pub events: u64,
+    /// Frames of the whole run.
+    pub frames: u64,
     /// Thread CPU time per simulated second, s; the best of several.
     pub cpu_per_s: Option<f64>,
+    /// The median of these.
+    pub cpu_median: Option<f64>,
     /// (worst − best) / best of these.
     pub cpu_spread: Option<f64>,
     /// Reasons to doubt these figures; empty if there are none.
@@ -53,6 +63,8 @@ impl Row for TradeRow {
         "tolerance",
         "until",
         "horizon",
+        "certified",
+        "floor",
         "position_error",
         "impact_time_error",
         "common_events",
@@ -60,10 +72,41 @@ impl Row for TradeRow {
         "deepest_degree",
         "impacts",
         "evaluations",
+        "events",
+        "frames",
         "cpu_per_s",
+        "cpu_median",
         "cpu_spread",
         "note",
     ];
+}
+
+/// A row with what repeats it: written by `measure --json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TradeNote {
+    /// The row.
+    #[serde(flatten)]
+    pub row: TradeRow,
+    /// The command that measures this setting again.
+    pub command: String,
+    /// Processor, cores, system and version of Carom.
+    pub machine: String,
+}
+
+impl TradeNote {
+    /// A row measured on a machine.
+    pub fn of(row: &TradeRow, machine: &str) -> TradeNote {
+        let knob =
+            |name: &str, value: Option<f64>| value.map(|value| format!(" --{name} {value:e}")).unwrap_or_default();
+        let knobs = knob("dt", row.dt) + &knob("tolerances", row.tolerance);
+        let command = format!("carom measure {} --methods {}{knobs}", row.scene, row.method);
+        TradeNote { row: row.clone(), command, machine: machine.into() }
+    }
+}
+
+impl Row for TradeNote {
+    /// Written as JSON only.
+    const COLUMNS: &'static [&'static str] = &[];
 }
 
 /// Reads a file of trade rows, each with its line number.
@@ -74,9 +117,23 @@ pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, ReadErr
     read_rows(reader).map_err(ReadError)
 }
 
-/// Why a file of trade rows is refused. Displays as `line: what is wrong there`, or as ` what is wrong` if it is no line.
+/// Why a file of rows is refused. Displays as `line: what is wrong there`, or as ` what is wrong` if it is no line.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ReadError(String);
+pub struct ReadError(pub(super) String);
+
+impl ReadError {
+    /// The same, of the file of this name.
+    pub fn of(self, name: &str) -> ReadError {
+        ReadError(format!(" {name}:{}", self.0))
+    }
+}
+
+impl From<String> for ReadError {
+    /// What is wrong with a file as a whole.
+    fn from(sentence: String) -> ReadError {
+        ReadError(format!(" {sentence}"))
+    }
+}
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -116,10 +173,13 @@ fn improper(row: &TradeRow) -> Option<String> {
         ("tolerance", row.tolerance),
         ("until", Some(row.until)),
         ("horizon", row.horizon),
+        ("certified", row.certified),
+        ("floor", row.floor),
         ("position_error", row.position_error),
         ("impact_time_error", row.impact_time_error),
         ("energy_error", row.energy_error),
         ("cpu_per_s", row.cpu_per_s),
+        ("cpu_median", row.cpu_median),
         ("cpu_spread", row.cpu_spread),
     ];
     if let Some(dt) = row.dt.filter(|dt| !dt.is_finite() || *dt <= 0.0) {
@@ -141,7 +201,7 @@ fn improper(row: &TradeRow) -> Option<String> {
 }
 
 /// Longest cell quoted in a message, characters.
-const CELL: usize = 60;
+pub(super) const CELL: usize = 60;
 
 /// Which cell of a row is wrong, and what stands in it.
 fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
@@ -152,7 +212,7 @@ fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
     format!("{column} is \"{found}\"; wanted is a number")
 }
 
-fn explain(error: &csv::Error) -> String {
+pub(super) fn explain(error: &csv::Error) -> String {
     match (error.position(), error.kind()) {
         (_, csv::ErrorKind::Io(error)) => format!(" {}", printable::cause(error)),
         (Some(place), csv::ErrorKind::Utf8 { .. }) => format!("{}: this is no text in UTF-8", place.line()),
@@ -173,6 +233,8 @@ mod tests {
             tolerance: None,
             until: 20.0,
             horizon: None,
+            certified: Some(20.0),
+            floor: Some(1e-15),
             position_error: Some(5e-324),
             impact_time_error: None,
             common_events: 3,
@@ -180,7 +242,10 @@ mod tests {
             deepest_degree: -0.0,
             impacts: 22,
             evaluations: u64::MAX,
+            events: 30,
+            frames: 200,
             cpu_per_s: Some(1e300),
+            cpu_median: None,
             cpu_spread: None,
             note: "stalled at 1 s".into(),
         }
@@ -207,7 +272,7 @@ mod tests {
             (String::new(), &["1: ", "empty"][..]),
             ("time,sphere\n1,2\n".into(), &["1: ", "columns"]),
             (good.replace("20.0", "soon"), &["2: ", "until", "\"soon\""]),
-            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "16"]),
+            (good.clone() + "a,paper,1\n", &["3: ", "3 cells", "21"]),
             (good.replace(",22,", ",-22,"), &["2: ", "impacts", "-22"]),
             (good.replace("1e300", "NaN"), &["2: ", "cpu_per_s is NaN"]),
             (good.replace("paper,0.1", "paper,inf"), &["2: ", "dt is inf", "finite"]),

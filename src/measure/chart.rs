@@ -1,5 +1,6 @@
 //! Error over cost as a chart of characters, 80 columns wide: a letter for each method, so that no colour is needed.
 
+use super::axes::{Axes, Error};
 use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
@@ -22,28 +23,35 @@ fn letter(row: &TradeRow, on_front: bool) -> char {
 }
 
 /// The chart of one scene's rows; nothing if no row has both figures.
-pub(super) fn chart(rows: &[TradeRow], allowed: &[Method]) -> String {
-    let points = || rows.iter().filter_map(|row| Some((row.cpu_per_s?, row.position_error?)));
+pub(super) fn chart(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> String {
+    let points = || rows.iter().filter_map(|row| axes.point(row));
     if points().next().is_none() {
         return String::new();
     }
-    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1)));
+    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1).chain(floor(rows, axes))));
+    let floor = floor(rows, axes);
     let mut plot = vec![[' '; WIDTH]; HEIGHT];
     let column = |value: f64| (x.place(value) * (WIDTH - 1) as f64).round() as usize;
     let line = |value: f64| HEIGHT - 1 - (y.place(value) * (HEIGHT - 1) as f64).round() as usize;
-    let best = front(rows, allowed);
+    let best = front(rows, allowed, axes);
     let corners: Vec<(usize, usize)> =
-        best.iter().filter_map(|&i| Some((column(rows[i].cpu_per_s?), line(rows[i].position_error?)))).collect();
+        best.iter().filter_map(|&i| axes.point(&rows[i])).map(|(cost, error)| (column(cost), line(error))).collect();
+    floor.iter().for_each(|floor| plot[line(*floor)].fill('-'));
     draw_steps(&mut plot, &corners);
     let on_front = |index: &usize| best.contains(index);
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(on_front); // capitals last: nothing covers them
     for index in order {
-        if let (Some(cost), Some(error)) = (rows[index].cpu_per_s, rows[index].position_error) {
+        if let Some((cost, error)) = axes.point(&rows[index]) {
             plot[line(error)][column(cost)] = letter(&rows[index], on_front(&index));
         }
     }
-    framed(&plot, x, y) + &legend(rows)
+    framed(&plot, [x, y], axes) + &legend(rows, axes)
+}
+
+/// The yardstick's own error, if it is known and is one of these errors.
+fn floor(rows: &[TradeRow], axes: Axes) -> Option<f64> {
+    rows[0].floor.filter(|floor| axes.y == Error::Position && *floor > 0.0)
 }
 
 /// The front as steps: from each setting's cost on, its error is to be had.
@@ -56,8 +64,8 @@ fn draw_steps(plot: &mut [[char; WIDTH]], corners: &[(usize, usize)]) {
 }
 
 /// The plot with its axes and their labels.
-fn framed(plot: &[[char; WIDTH]], x: Scale, y: Scale) -> String {
-    let mut text = String::from("position error, m\n");
+fn framed(plot: &[[char; WIDTH]], [x, y]: [Scale; 2], axes: Axes) -> String {
+    let mut text = format!("{}\n", axes.y.axis());
     let ticks = y.ticks(HEIGHT / 2);
     for (index, line) in plot.iter().enumerate() {
         let place = |tick: &&(f64, String)| (tick.0 * (HEIGHT - 1) as f64).round() as usize == HEIGHT - 1 - index;
@@ -80,11 +88,12 @@ fn framed(plot: &[[char; WIDTH]], x: Scale, y: Scale) -> String {
 }
 
 /// What the letters mean, and what the axis below is.
-fn legend(rows: &[TradeRow]) -> String {
+fn legend(rows: &[TradeRow], axes: Axes) -> String {
     let mut names: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
     names.dedup();
     let words = names.iter().map(|name| format!("{} {name}", name.chars().next().unwrap_or('?')));
     let words: Vec<String> = words.collect();
-    let axis = format!("{:>LABELS$}  {:^WIDTH$}", "", "CPU time per simulated second, s");
-    format!("{}\n{:>LABELS$}  {}; capital and ·: the front\n", axis.trim_end(), "", words.join(", "))
+    let axis = format!("{:>LABELS$}  {:^WIDTH$}", "", axes.x.axis());
+    let own = floor(rows, axes).map(|_| format!("{:>LABELS$}  -: exact's own error\n", "")).unwrap_or_default();
+    format!("{}\n{:>LABELS$}  {}; capital and ·: the front\n{own}", axis.trim_end(), "", words.join(", "))
 }

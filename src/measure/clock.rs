@@ -1,6 +1,6 @@
 //! The clocks: processor time of a thread, and wall time. Nothing else in `measure` knows of time.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use rustix::time::{ClockId, clock_getres, clock_gettime};
 
@@ -59,19 +59,4 @@ pub(super) fn resolution() -> f64 {
 
 fn seconds(time: rustix::time::Timespec) -> f64 {
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-}
-
-/// When to stop, whatever has been reached.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Deadline(Instant);
-
-impl Deadline {
-    /// So many seconds from now.
-    pub(super) fn after(seconds: f64) -> Deadline {
-        Deadline(Instant::now() + Duration::from_secs_f64(seconds))
-    }
-
-    pub(super) fn is_past(&self) -> bool {
-        Instant::now() >= self.0
-    }
 }

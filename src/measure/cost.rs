@@ -33,6 +33,8 @@ const WAIT: f64 = 2e-3;
 pub struct Cost {
     /// Thread CPU time per simulated second, s: the best of several timings.
     pub cpu_per_s: f64,
+    /// The median of them.
+    pub median: f64,
     /// (worst − best) / best; none if it was timed once.
     pub spread: Option<f64>,
     /// Reasons to doubt these figures, a phrase each.
@@ -45,15 +47,60 @@ pub struct Cost {
 /// # Errors
 /// If `go_on` returns false.
 pub fn cost(scene: &Scene, settings: Settings, until: f64, go_on: GoOn) -> Result<Cost, Interrupted> {
-    let fresh = Simulation::new(scene, settings);
-    let (first, simulated) = time(&fresh, until, 1, go_on)?;
-    let repeats = ((SHORTEST / first.cpu.max(1e-9)) as u64).clamp(1, MOST_REPEATS);
-    let count = TIMINGS.iter().find(|(limit, _)| first.cpu <= *limit).map_or(1, |(_, count)| *count);
-    let mut timings = if repeats == 1 { vec![first] } else { Vec::new() };
-    while timings.len() < count {
-        timings.push(time(&fresh, until, repeats, go_on)?.0);
+    let mut timings = Timings::begin(scene, settings, until, go_on)?;
+    while timings.wants_more() {
+        timings.add(scene, go_on)?;
     }
-    Ok(summary(&timings, repeats as f64 * simulated))
+    Ok(timings.summary())
+}
+
+/// Timings of a setting under way: one after the other, or in turn with those of other settings, so that a slow minute hits all.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Timings {
+    settings: Settings,
+    until: f64,
+    /// How often a run is repeated within one timing, and how many timings there are to be.
+    repeats: u64,
+    count: usize,
+    /// Seconds that one run simulates.
+    simulated: f64,
+    passed: Vec<Passed>,
+}
+
+impl Timings {
+    /// Runs once, which tells how often to repeat; that counts as the first timing if once is often enough.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub(super) fn begin(scene: &Scene, settings: Settings, until: f64, go_on: GoOn) -> Result<Timings, Interrupted> {
+        let (first, simulated) = time(&Simulation::new(scene, settings), until, 1, go_on)?;
+        let repeats = ((SHORTEST / first.cpu.max(1e-9)) as u64).clamp(1, MOST_REPEATS);
+        let count = TIMINGS.iter().find(|(limit, _)| first.cpu <= *limit).map_or(1, |(_, count)| *count);
+        let passed = if repeats == 1 { vec![first] } else { Vec::new() };
+        let mut timings = Timings { settings, until, repeats, count, simulated, passed };
+        if repeats > 1 {
+            timings.add(scene, go_on)?;
+        }
+        Ok(timings)
+    }
+
+    pub(super) fn wants_more(&self) -> bool {
+        self.passed.len() < self.count
+    }
+
+    /// One timing more.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub(super) fn add(&mut self, scene: &Scene, go_on: GoOn) -> Result<(), Interrupted> {
+        let fresh = Simulation::new(scene, self.settings);
+        self.passed.push(time(&fresh, self.until, self.repeats, go_on)?.0);
+        Ok(())
+    }
+
+    pub(super) fn summary(&self) -> Cost {
+        summary(&self.passed, self.repeats as f64 * self.simulated)
+    }
 }
 
 /// The time of so many runs in a row, and the seconds that one of them simulated.
@@ -82,7 +129,11 @@ fn summary(timings: &[Passed], simulated: f64) -> Cost {
         (busy, "machine busy"),
     ];
     let doubts = doubts.into_iter().filter(|(holds, _)| *holds).map(|(_, phrase)| phrase).collect();
-    Cost { cpu_per_s: best / simulated.max(f64::MIN_POSITIVE), spread, doubts }
+    let mut sorted: Vec<f64> = cpu().collect();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(best);
+    let per_s = |cpu: f64| cpu / simulated.max(f64::MIN_POSITIVE);
+    Cost { cpu_per_s: per_s(best), median: per_s(median), spread, doubts }
 }
 
 #[cfg(test)]
@@ -96,7 +147,7 @@ mod tests {
     #[test]
     fn the_best_timing_counts_and_the_spread_is_shown() {
         let cost = summary(&[passed(0.5, 0.5), passed(0.25, 0.25), passed(0.375, 0.375)], 2.0);
-        assert_eq!((cost.cpu_per_s, cost.spread), (0.125, Some(1.0)));
+        assert_eq!((cost.cpu_per_s, cost.median, cost.spread), (0.125, 0.1875, Some(1.0)));
         assert_eq!(cost.doubts, ["timings spread widely"]);
     }
 

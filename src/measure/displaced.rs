@@ -53,7 +53,7 @@ fn displacement(scene: &Scene) -> f64 {
 }
 
 /// The scene with every sphere `length` m aside.
-fn aside(scene: &Scene, seed: u64, length: f64) -> Scene {
+pub(super) fn aside(scene: &Scene, seed: u64, length: f64) -> Scene {
     let mut random = SplitMix64::new(seed);
     let places = scene.spheres.iter().map(|sphere| {
         let reach = sphere.radius + TOUCH * length;

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use super::axes::{Axes, Error};
 use super::front::front;
 use super::scale::Scale;
 use crate::export::TradeRow;
@@ -33,16 +34,18 @@ struct Plot {
 }
 
 /// Two axes within a plot.
-struct Axes {
+struct Frame {
     plot: Plot,
+    axes: Axes,
     x: Scale,
     y: Scale,
 }
 
-impl Axes {
+impl Frame {
     /// Where a row lies, px; none if it lacks a figure.
     fn point(&self, row: &TradeRow) -> Option<(f64, f64)> {
-        Some((self.across(self.x.place(row.cpu_per_s?)), self.up(self.y.place(row.position_error?))))
+        let (cost, error) = self.axes.point(row)?;
+        Some((self.across(self.x.place(cost)), self.up(self.y.place(error))))
     }
 
     fn across(&self, part: f64) -> f64 {
@@ -54,38 +57,42 @@ impl Axes {
     }
 }
 
-/// The figure of all rows, a panel for each scene. `allowed` methods compete on the front.
-pub fn figure(rows: &[TradeRow], allowed: &[Method]) -> String {
+/// The figure of all rows, a panel for each scene. `allowed` methods compete on the front; `about` tells the machine and the
+/// command, for who reads the file.
+pub fn figure(rows: &[TradeRow], allowed: &[Method], axes: Axes, about: &str) -> String {
     let panels: Vec<&[TradeRow]> = rows.chunk_by(|a, b| a.scene == b.scene).collect();
     let height = PANEL * panels.len().max(1) as f64;
     let names: Vec<&str> = panels.iter().map(|rows| rows[0].scene.as_str()).collect();
+    let description = if about.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", escape(about)) };
     let mut svg = format!(
         r##"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" role="img" aria-labelledby="title" font-family="sans-serif" font-size="13" fill="#000000">
-<title id="title">Position error over cost: {}</title>
-<rect width="100%" height="100%" fill="#ffffff"/>
+<title id="title">{} over cost: {}</title>
+{description}<rect width="100%" height="100%" fill="#ffffff"/>
 "##,
+        axes.y.title(),
         escape(&names.join(", ")),
     );
     for (index, rows) in panels.into_iter().enumerate() {
         let _ = writeln!(svg, r#"<g transform="translate(0 {})">"#, index as f64 * PANEL);
-        panel(rows, allowed, &mut svg);
+        panel(rows, (allowed, axes), &mut svg);
         svg += "</g>\n";
     }
     svg + "</svg>\n"
 }
 
-fn panel(rows: &[TradeRow], allowed: &[Method], svg: &mut String) {
-    let points = || rows.iter().filter_map(|row| Some((row.cpu_per_s?, row.position_error?)));
-    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1)));
-    let axes = Axes { plot: PLOT, x, y };
-    let best = front(rows, allowed);
-    frame(&axes, svg);
-    words(rows, &axes, svg);
-    steps(rows, &best, &axes, svg);
+fn panel(rows: &[TradeRow], (allowed, axes): (&[Method], Axes), svg: &mut String) {
+    let points = || rows.iter().filter_map(|row| axes.point(row));
+    let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1).chain(floor(rows, axes))));
+    let framed = Frame { plot: PLOT, axes, x, y };
+    let best = front(rows, allowed, axes);
+    frame(&framed, svg);
+    words(rows, &framed, svg);
+    own_error(rows, &framed, svg);
+    steps(rows, &best, &framed, svg);
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(|index| best.contains(index)); // the front last: nothing covers it
     for index in order {
-        if let Some(place) = axes.point(&rows[index]) {
+        if let Some(place) = framed.point(&rows[index]) {
             marker(&rows[index].method, place, best.contains(&index), &tip(&rows[index]), svg);
         }
     }
@@ -93,7 +100,7 @@ fn panel(rows: &[TradeRow], allowed: &[Method], svg: &mut String) {
 }
 
 /// The plot's outline, its grid and its tick labels.
-fn frame(axes: &Axes, svg: &mut String) {
+fn frame(axes: &Frame, svg: &mut String) {
     let Plot { left, top, width, height } = axes.plot;
     let bottom = top + height;
     for (place, label) in axes.x.ticks(TICKS.0) {
@@ -125,7 +132,7 @@ fn power(label: &str) -> String {
 }
 
 /// The title and what the axes are.
-fn words(rows: &[TradeRow], axes: &Axes, svg: &mut String) {
+fn words(rows: &[TradeRow], axes: &Frame, svg: &mut String) {
     let Plot { left, top, width, height } = axes.plot;
     let horizon = match rows[0].horizon {
         Some(time) => format!("horizon {} s", format::time(time)),
@@ -136,17 +143,37 @@ fn words(rows: &[TradeRow], axes: &Axes, svg: &mut String) {
     let _ = writeln!(svg, r#"<text x="{left}" y="{}" font-size="17" font-weight="bold">{title}</text>"#, top - 20.0);
     let _ = writeln!(
         svg,
-        r#"<text x="{across}" y="{}" text-anchor="middle">cost: CPU seconds per simulated second</text>"#,
+        r#"<text x="{across}" y="{}" text-anchor="middle">{}</text>"#,
         top + height + 46.0,
+        axes.axes.x.label(),
     );
     let _ = writeln!(
         svg,
-        r#"<text transform="translate(22 {up}) rotate(-90)" text-anchor="middle">largest position error up to the horizon, m</text>"#
+        r#"<text transform="translate(22 {up}) rotate(-90)" text-anchor="middle">{}</text>"#,
+        axes.axes.y.label(),
+    );
+}
+
+/// The yardstick's own error, if it is known and is one of these errors.
+fn floor(rows: &[TradeRow], axes: Axes) -> Option<f64> {
+    rows[0].floor.filter(|floor| axes.y == Error::Position && *floor > 0.0)
+}
+
+/// The line below which no position error means anything.
+fn own_error(rows: &[TradeRow], framed: &Frame, svg: &mut String) {
+    let Some(floor) = floor(rows, framed.axes) else { return };
+    let (left, right, y) = (framed.across(0.0), framed.across(1.0), framed.up(framed.y.place(floor)));
+    let _ = writeln!(svg, r##"<path stroke="#000000" stroke-dasharray="2 3" d="M{left} {y:.1}H{right}"/>"##);
+    let _ = writeln!(
+        svg,
+        r#"<text x="{}" y="{:.1}" text-anchor="end" font-size="11">exact's own error</text>"#,
+        right - 6.0,
+        y - 4.0
     );
 }
 
 /// The front as steps: from each setting's cost on, its error is to be had.
-fn steps(rows: &[TradeRow], best: &[usize], axes: &Axes, svg: &mut String) {
+fn steps(rows: &[TradeRow], best: &[usize], axes: &Frame, svg: &mut String) {
     let corners: Vec<(f64, f64)> = best.iter().filter_map(|&row| axes.point(&rows[row])).collect();
     let Some(&(x, y)) = corners.first() else { return };
     let mut path = format!("M{x:.1} {y:.1}");

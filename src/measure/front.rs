@@ -1,5 +1,6 @@
 //! Which settings are worth their time: the Pareto front, and the cheapest setting for each decade of error.
 
+use super::axes::Axes;
 use crate::export::TradeRow;
 use crate::scene::Method;
 
@@ -9,40 +10,40 @@ const DECADES: [f64; 17] =
 
 /// The indices of the rows (of one scene) that no other beats in both error and cost, cheapest first. A run that
 /// stalled does not compete, nor does one without figures, nor a method that is not `allowed`.
-pub fn front(rows: &[TradeRow], allowed: &[Method]) -> Vec<usize> {
-    let mut order: Vec<(f64, f64, usize)> = competitors(rows, allowed).collect();
+pub fn front(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> Vec<usize> {
+    let mut order: Vec<(f64, f64, usize)> = competitors(rows, allowed, axes).collect();
     order.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.total_cmp(&b.0)).then(a.2.cmp(&b.2)));
     let mut best = f64::INFINITY;
     let better = |(error, _, index): &(f64, f64, usize)| (*error < best).then(|| (best = *error, *index).1);
     order.iter().filter_map(better).collect()
 }
 
-/// (error in m, cost, index) of the rows that may compete.
-fn competitors(rows: &[TradeRow], allowed: &[Method]) -> impl Iterator<Item = (f64, f64, usize)> {
-    rows.iter().enumerate().filter_map(|(index, row)| {
+/// (error, cost, index) of the rows that may compete.
+fn competitors(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> impl Iterator<Item = (f64, f64, usize)> {
+    rows.iter().enumerate().filter_map(move |(index, row)| {
         let method = Method::from_name(&row.method).filter(|method| allowed.contains(method));
         let finished = row.note.stalled.is_none();
-        method.filter(|_| finished).and(Some((row.position_error?, row.cpu_per_s?, index)))
+        method.filter(|_| finished).and(Some((axes.error(row)?, axes.cost(row)?, index)))
     })
 }
 
 /// The cheapest setting for some decades of error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cheapest {
-    /// Largest error for which it is the cheapest, m.
+    /// Largest error for which it is the cheapest.
     pub from: f64,
-    /// Smallest error that it meets, m, a power of ten.
+    /// Smallest error that it meets, a power of ten.
     pub to: f64,
     /// Which row.
     pub row: usize,
 }
 
-/// For each decade of error from 1 m down, the cheapest row of a [`front`] that meets it; decades with the same answer
+/// For each decade of error from 1 down, the cheapest row of a [`front`] that meets it; decades with the same answer
 /// are one entry. What no row meets is not there.
-pub fn cheapest(rows: &[TradeRow], front: &[usize]) -> Vec<Cheapest> {
+pub fn cheapest(rows: &[TradeRow], front: &[usize], axes: Axes) -> Vec<Cheapest> {
     let mut found: Vec<Cheapest> = Vec::new();
     for decade in DECADES {
-        let meets = |row: &&usize| rows[**row].position_error.is_some_and(|error| error <= decade);
+        let meets = |row: &&usize| axes.error(&rows[**row]).is_some_and(|error| error <= decade);
         let Some(&row) = front.iter().find(meets) else { break };
         match found.last_mut().filter(|last| last.row == row) {
             Some(last) => last.to = decade,
@@ -55,26 +56,15 @@ pub fn cheapest(rows: &[TradeRow], front: &[usize]) -> Vec<Cheapest> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::Note;
 
     fn row(error: f64, cost: f64) -> TradeRow {
         TradeRow {
             scene: "s".into(),
             method: "paper".into(),
-            dt: None,
-            tolerance: None,
             until: 1.0,
-            horizon: None,
             position_error: Some(error),
-            impact_time_error: None,
-            common_events: 0,
-            energy_error: None,
-            deepest_degree: 0.0,
-            impacts: 0,
-            evaluations: 0,
             cpu_per_s: Some(cost),
-            cpu_spread: None,
-            note: Note::default(),
+            ..TradeRow::default()
         }
     }
 
@@ -83,15 +73,15 @@ mod tests {
         let mut rows = vec![row(1e-1, 4.0), row(1e-2, 2.0), row(0.5, 1.0), row(1e-2, 3.0), row(1e-9, 0.5)];
         rows[4].note = "stalled at 1 s".into();
         rows.push(TradeRow { method: "exact".into(), ..row(0.0, 0.1) });
-        assert_eq!(front(&rows, &[Method::Paper]), [2, 1]);
-        assert_eq!(front(&rows, &[Method::Paper, Method::Exact]), [5], "exact competes if it may");
-        assert_eq!(front(&[], &[Method::Paper]), [0; 0]);
+        assert_eq!(front(&rows, &[Method::Paper], Axes::default()), [2, 1]);
+        assert_eq!(front(&rows, &[Method::Paper, Method::Exact], Axes::default()), [5], "exact competes if it may");
+        assert_eq!(front(&[], &[Method::Paper], Axes::default()), [0; 0]);
     }
 
     #[test]
     fn decades_with_the_same_answer_are_one() {
         let rows = [row(0.5, 1.0), row(5e-5, 2.0)];
-        let found = cheapest(&rows, &front(&rows, &[Method::Paper]));
+        let found = cheapest(&rows, &front(&rows, &[Method::Paper], Axes::default()), Axes::default());
         let wanted = [Cheapest { from: 1.0, to: 1.0, row: 0 }, Cheapest { from: 1e-1, to: 1e-4, row: 1 }];
         assert_eq!(found, wanted);
     }

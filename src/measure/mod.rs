@@ -1,7 +1,8 @@
 //! Runs without a screen that measure: how far a method is from the truth, and what it costs.
 //!
-//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*, the time until a
-//! displacement of 1e-12 m has grown by 1e6: beyond it positions mean nothing. The cost is the processor time of one
+//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*: until there the
+//! certified error of `exact` is within what is asked, or a displacement of 1e-12 m has not yet grown by 1e6; beyond it positions mean
+//! nothing. The cost is the processor time of one
 //! thread per simulated second, and the work counted. How far `exact` itself is off, [`certify`](crate::certify) tells.
 //!
 //! For others to build on:
@@ -10,7 +11,7 @@
 //!   [`Reference::meaningful`] says until when positions can be compared.
 //! - [`errors`] of a setting against a reference, in one run; [`cost`] of a setting, best of several runs.
 //! - [`Subject::measure`]: both as one row of the trade; [`front`] and [`cheapest`] of such rows.
-//! - [`choose`]: the cheapest setting that meets an error, in a few seconds.
+//! - [`choose`]: the setting of least counted work that meets an error.
 //!
 //! ```
 //! use carom::measure::Deviation;
@@ -41,25 +42,35 @@
 //! | `deviation` | how far one run is from another |
 //! | `slices` | how much work fits between two looks at whether to go on |
 //! | `clock`, `cost` | processor time; the only clocks |
+//! | `work` | counted work, the same on every machine |
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
+//! | `axes` | which error over which cost |
+//! | `orders` | the order of each method in its knob |
+//! | `fit` | the order at which an error falls |
 //! | `accuracy` | the cheapest setting that meets an error |
+//! | `crowd`, `crowds` | what means over many seeds say beyond the horizon |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
 
 mod accuracy;
+mod axes;
 mod chart;
 mod clock;
 mod cost;
+mod crowd;
+mod crowds;
 mod deviation;
 mod displaced;
 mod figure;
+mod fit;
 mod front;
 mod growth;
 mod horizon;
 mod interrupt;
 mod ladder;
+mod orders;
 mod reference;
 mod report;
 mod sample;
@@ -69,21 +80,26 @@ mod slices;
 mod sweep;
 mod trade;
 pub mod verify;
+mod work;
 mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
+pub use axes::{Axes, Cost as CostAxis, Error as ErrorAxis};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
+pub use crowd::{Crowd, FIGURES, Mean, crowd_run};
+pub use crowds::{crowd_report, crowd_rows, crowds};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
+pub use fit::{Fit, fit};
 pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
 pub use interrupt::{GoOn, Interrupted};
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
-pub use reference::{Horizon, Reference};
+pub use reference::{Horizon, OwnError, Reference};
 pub use report::report;
 pub use sample::{Budget, EndReason, Impact, Instants, Sampled, sample};
 pub use shard::{MergeError, NoShard, Placed, Shard, merge};
 pub use slices::Slices;
 pub use sweep::{Advance, Measured, Sweep, SweepError, Yardstick};
-pub use trade::{Errors, Subject, errors};
+pub use trade::{ASKED, Errors, Subject, errors};

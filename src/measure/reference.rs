@@ -24,6 +24,8 @@ pub struct Reference {
     pub tallies: Tallies,
     /// How long its positions can be compared with others.
     pub horizon: Horizon,
+    /// What is known of its own error; none if it is not certified.
+    pub own: Option<OwnError>,
     /// A reason to doubt it, a phrase; empty if there is none.
     pub doubt: String,
     positions: Vec<DVec3>,
@@ -38,6 +40,15 @@ pub struct Horizon {
     pub time: Option<f64>,
     /// The largest growth of a displacement up to there, dimensionless.
     pub growth: f64,
+}
+
+/// How far a reference itself is off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OwnError {
+    /// Up to when that is known to be within what is asked, s.
+    pub until: f64,
+    /// The largest distance of a sphere from where it should be, up to then, m.
+    pub error: f64,
 }
 
 impl Horizon {
@@ -80,6 +91,7 @@ impl Reference {
             impacts: sampled.impacts,
             tallies: sampled.tallies,
             horizon: Horizon::unknown(),
+            own: None,
             doubt: String::new(),
             positions,
             energies,

@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
+use super::axes::Axes;
 use super::chart::chart;
 use super::front::{cheapest, front};
+use super::orders::orders;
 use super::sweep::Yardstick;
 use crate::export::TradeRow;
 use crate::format;
@@ -13,24 +15,31 @@ use crate::scene::Method;
 const GROWN: f64 = 100.0;
 
 /// The report on all rows, a section by scene. `allowed` methods compete on the front.
-pub fn report(rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick]) -> String {
+pub fn report(rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick], axes: Axes) -> String {
     let sections = rows.chunk_by(|a, b| a.scene == b.scene).map(|of_scene| {
         let yardstick = yardsticks.iter().find(|yardstick| yardstick.scene == of_scene[0].scene);
-        section(of_scene, allowed, yardstick)
+        section(of_scene, (allowed, axes), yardstick)
     });
     sections.collect::<Vec<_>>().join("\n")
 }
 
-fn section(rows: &[TradeRow], allowed: &[Method], yardstick: Option<&Yardstick>) -> String {
-    let best = front(rows, allowed);
-    let mut text = heading(rows, yardstick) + "\n\n" + &table(rows, &best) + "\n";
-    let chart = chart(rows, allowed);
+fn section(rows: &[TradeRow], (allowed, axes): (&[Method], Axes), yardstick: Option<&Yardstick>) -> String {
+    let folded = fold(rows);
+    let kept: Vec<TradeRow> = folded.iter().map(|group| rows[group[0]].clone()).collect();
+    let alike: Vec<Vec<&TradeRow>> =
+        folded.iter().map(|group| group[1..].iter().map(|&row| &rows[row]).collect()).collect();
+    let rows = &kept[..];
+    let best = front(rows, allowed, axes);
+    let mut text = heading(rows, yardstick) + "\n\n" + &table(rows, &alike, &best) + "\n";
+    let chart = chart(rows, allowed, axes);
     if !chart.is_empty() {
         text += &chart;
         text.push('\n');
     }
-    text += &sentences(rows, &best);
+    text += &sentences(rows, &best, axes);
     text += &price(rows, &best, yardstick);
+    text += &found_orders(rows, axes);
+    text += &failures(rows);
     text
 }
 
@@ -42,20 +51,24 @@ fn heading(rows: &[TradeRow], yardstick: Option<&Yardstick>) -> String {
         Some(time) => format!("horizon {} s: beyond it positions mean nothing", format::time(time)),
         None => format!("horizon none{growth}: positions mean something to the end"),
     };
-    format!("{}: {} s; {horizon}", rows[0].scene, format::time(until))
+    let own = rows[0].certified.zip(rows[0].floor).map(|(time, floor)| {
+        format!("\nexact itself is off by {} m at most, up to {} s", format::digits(floor, 1), format::time(time))
+    });
+    format!("{}: {} s; {horizon}{}", rows[0].scene, format::time(until), own.unwrap_or_default())
 }
 
 /// Errors in m and s, energy and depth as parts; gaps computed, CPU time per simulated second and its spread.
 const COLUMNS: &str = "  method dt   tol   error m delay s  common  energy depth  gaps   cpu/s   ±";
 
 /// A line for each row, `*` on the front; letters refer to the notes below.
-fn table(rows: &[TradeRow], best: &[usize]) -> String {
+fn table(rows: &[TradeRow], alike: &[Vec<&TradeRow>], best: &[usize]) -> String {
     let mut notes: Vec<String> = Vec::new();
     let mut text = String::from(COLUMNS) + "\n";
     for (index, row) in rows.iter().enumerate() {
         // Runs that stalled share a letter, whenever and why they did.
-        let stalled = row.note.stalled.as_ref().map(|_| "stalled before the end; when and why: --csv");
-        let phrases = stalled.into_iter().chain(row.note.doubts.iter().map(String::as_str));
+        let stalled = row.note.stalled.as_ref().map(|_| "stopped before the end: below");
+        let same = same_as(row, &alike[index]);
+        let phrases = stalled.into_iter().chain(row.note.doubts.iter().map(String::as_str)).chain(same.as_deref());
         let letters: String = phrases.map(|phrase| letter(phrase, &mut notes)).collect();
         let mark = if best.contains(&index) { '*' } else { ' ' };
         text += format!("{mark} {} {letters}", cells(row)).trim_end();
@@ -103,24 +116,24 @@ pub(super) fn setting(method: &str, dt: Option<f64>, tolerance: Option<f64>) -> 
 }
 
 /// The cheapest setting for each decade of error.
-fn sentences(rows: &[TradeRow], best: &[usize]) -> String {
-    let mut text = String::new();
-    for found in cheapest(rows, best) {
+fn sentences(rows: &[TradeRow], best: &[usize], axes: Axes) -> String {
+    let (mut text, unit) = (String::new(), axes.y.unit());
+    for found in cheapest(rows, best, axes) {
         let row = &rows[found.row];
         let range = match (found.from, found.to) {
-            (from, to) if from == to => format!("an error up to {to:e} m"),
-            (from, to) => format!("errors of {from:e} down to {to:e} m"),
+            (from, to) if from == to => format!("an error up to {to:e}{unit}"),
+            (from, to) => format!("errors of {from:e} down to {to:e}{unit}"),
         };
-        let (cost, error) =
-            (row.cpu_per_s.map(format::duration).unwrap_or_default(), row.position_error.unwrap_or(0.0));
+        let cost = axes.cost(row).map(|cost| axes.x.words(cost)).unwrap_or_default();
+        let error = axes.error(row).unwrap_or(0.0);
         let _ = writeln!(
             text,
-            "Cheapest for {range}: {};\n  {cost} per simulated second, error {} m.",
+            "Cheapest for {range}: {};\n  {cost}, error {}{unit}.",
             setting(&row.method, row.dt, row.tolerance),
             format::digits(error, 1),
         );
     }
-    if text.is_empty() { "No setting that may compete reached the end within 1 m.\n".into() } else { text }
+    if text.is_empty() { format!("No setting that may compete reached the end within 1{unit}.\n") } else { text }
 }
 
 /// What the yardstick costs, and whether anything on the front is cheaper.
@@ -139,4 +152,58 @@ fn price(rows: &[TradeRow], best: &[usize], yardstick: Option<&Yardstick>) -> St
         (count, _) => format!(";\n  {count} settings on the front cost less"),
     };
     format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", format::duration(price))
+}
+
+/// The indices of rows that are one and the same but for a knob: the rows of one method whose every counted figure is equal.
+fn fold(rows: &[TradeRow]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (index, row) in rows.iter().enumerate() {
+        match groups.iter_mut().find(|group| is_same(&rows[group[0]], row)) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    groups
+}
+
+fn is_same(a: &TradeRow, b: &TradeRow) -> bool {
+    let counted = |row: &TradeRow| (row.common_events, row.impacts, row.evaluations, row.events, row.frames);
+    let errors =
+        |row: &TradeRow| (row.until, row.position_error, row.impact_time_error, row.energy_error, row.deepest_degree);
+    (&a.scene, &a.method) == (&b.scene, &b.method) && counted(a) == counted(b) && errors(a) == errors(b)
+}
+
+/// Which settings a row stands for beside its own.
+fn same_as(row: &TradeRow, alike: &[&TradeRow]) -> Option<String> {
+    let one_step = alike.iter().all(|other| other.dt == row.dt);
+    let knob = |other: &TradeRow| {
+        let tolerance = other.tolerance.map(format::power).unwrap_or_default();
+        let dt = other.dt.filter(|_| !one_step).map(|dt| format!("dt {} ", format::power(dt))).unwrap_or_default();
+        dt + &tolerance
+    };
+    let list: Vec<String> = alike.iter().map(|other| knob(other).trim().to_string()).collect();
+    (!list.is_empty()).then(|| format!("the very same run as with {}", list.join(", ")))
+}
+
+fn found_orders(rows: &[TradeRow], axes: Axes) -> String {
+    let found: Vec<String> =
+        orders(rows, axes, rows[0].floor.unwrap_or(0.0)).iter().map(|order| order.to_string()).collect();
+    if found.is_empty() { String::new() } else { format!("Order of the error, with 95 %: {}.\n", found.join(";\n  ")) }
+}
+
+/// Settings that failed and are told one by one.
+const TOLD: usize = 12;
+
+/// Which settings stopped before the end, when and why.
+fn failures(rows: &[TradeRow]) -> String {
+    let failed: Vec<(&TradeRow, &String)> =
+        rows.iter().filter_map(|row| Some((row, row.note.stalled.as_ref()?))).collect();
+    let mut text = String::new();
+    for (row, when) in failed.iter().take(TOLD) {
+        let _ = writeln!(text, "Stopped: {} at {when}.", setting(&row.method, row.dt, row.tolerance));
+    }
+    if failed.len() > TOLD {
+        let _ = writeln!(text, "And {} more: --csv.", failed.len() - TOLD);
+    }
+    text
 }

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::clock::Watch;
 use super::interrupt::{GoOn, Interrupted};
 use super::slices::Slices;
+use super::work::counted;
 use crate::physics::contact::Key;
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 
@@ -18,15 +19,22 @@ pub struct Budget {
     pub work: u64,
     /// Time on its thread, s.
     pub cpu: f64,
+    /// Counted work, ns on some machine: what exceeds it is given up at the same instant everywhere.
+    pub counted: u64,
 }
 
 impl Budget {
     /// As much as it takes.
-    pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY };
+    pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY, counted: u64::MAX };
     /// For a reference: minutes of flights. A crowd that settles takes more, and gets the stand-in.
-    pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0 };
-    /// For a reference that a user waits for.
-    pub const BRIEF: Budget = Budget { work: 200_000, cpu: 0.6 };
+    pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0, counted: u64::MAX };
+    /// For a reference that a user waits for: half a second of counted work.
+    pub const BRIEF: Budget = Budget::counted(500_000_000);
+
+    /// So much counted work, ns, and nothing else.
+    pub const fn counted(counted: u64) -> Budget {
+        Budget { counted, ..Budget::UNLIMITED }
+    }
 }
 
 /// Instants at which every run of a scene is read, from 0 to `until`, evenly: a fixed grid, not the frames of each run,
@@ -110,6 +118,9 @@ pub fn sample(
     let mut pace = Pace::new(budget);
     for k in 0..=instants.count {
         end_reason = pace.reach(simulation, instants.at(k), go_on)?;
+        if end_reason.is_none() && counted(simulation) > budget.counted {
+            end_reason = Some(EndReason::Spent); // where slices end must not decide it
+        }
         keep_impacts(simulation, &mut impacts);
         if end_reason.is_some() {
             break;
@@ -171,7 +182,9 @@ impl Pace {
     fn is_spent(&self, run: &Simulation) -> bool {
         // Slices that are not used up count by their frames: of `exact`, one an event.
         let work = self.spent.max(run.tallies().frames);
-        work > self.budget.work || self.budget.cpu.is_finite() && self.since.cpu() > self.budget.cpu
+        work > self.budget.work
+            || counted(run) > self.budget.counted
+            || self.budget.cpu.is_finite() && self.since.cpu() > self.budget.cpu
     }
 }
 

@@ -9,7 +9,7 @@ use super::cost::cost;
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::shard::Shard;
-use super::trade::Subject;
+use super::trade::{ASKED, Setting, Subject};
 use crate::export::TradeRow;
 use crate::scene::{Method, Scene};
 
@@ -24,6 +24,10 @@ pub struct Sweep {
     scenes: Vec<(String, Scene)>,
     ladder: Ladder,
     shard: Shard,
+    /// Processor time after which a setting is given up, s.
+    timeout: f64,
+    /// The error that references may have themselves, m.
+    asked: f64,
 }
 
 /// What became of a sweep.
@@ -83,14 +87,25 @@ impl Sweep {
     /// # Errors
     /// If two scenes have one name, so that their rows could not be told apart, or if one lasts 0 s.
     pub fn new(mut scenes: Vec<(String, Scene)>, ladder: Ladder, shard: Shard) -> Result<Sweep, SweepError> {
+        let (timeout, asked) = (f64::INFINITY, ASKED);
         scenes.sort_by(|a, b| a.0.cmp(&b.0));
         if let Some((key, _)) = scenes.iter().find(|(_, scene)| scene.duration <= 0.0) {
             return Err(SweepError::NoDuration(key.clone()));
         }
         match scenes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             Some(pair) => Err(SweepError::OneName(pair[0].0.clone())),
-            None => Ok(Sweep { scenes, ladder, shard }),
+            None => Ok(Sweep { scenes, ladder, shard, timeout, asked }),
         }
+    }
+
+    /// The same, with each setting given up after so much processor time (s), and judged up to there.
+    pub fn with_timeout(self, timeout: f64) -> Sweep {
+        Sweep { timeout, ..self }
+    }
+
+    /// The same, with horizons where the certified error of a reference leaves this, m.
+    pub fn asking(self, asked: f64) -> Sweep {
+        Sweep { asked, ..self }
     }
 
     /// The settings of this sweep's shard: (index of the scene, setting).
@@ -115,22 +130,37 @@ impl Sweep {
         });
         let subjects: Vec<Option<(Subject, Yardstick)>> = subjects.into_iter().map(Option::flatten).collect();
         let progress = Progress::of(self, &tasks);
-        let rows = side_by_side(tasks.len(), jobs, |index| {
+        let begun = side_by_side(tasks.len(), jobs, |index| {
             let (scene, rung) = tasks[index];
             let (subject, _) = subjects[scene].as_ref().ok_or(Interrupted)?;
-            let row = subject.measure(rung, go_on)?;
+            let setting = subject.begin(rung, self.timeout, go_on)?;
             advanced(progress.after(index));
-            Ok(row)
+            Ok(Mutex::new(setting))
         });
+        // Turn about, so that a slow minute does not hit one method.
+        loop {
+            let wants = |setting: &&Mutex<Setting>| lock(setting).timings.wants_more();
+            let open: Vec<usize> = (0..tasks.len())
+                .filter(|&index| begun[index].as_ref().is_some_and(|setting| wants(&setting)))
+                .collect();
+            let round = side_by_side(open.len(), jobs, |place| {
+                let (index, (scene, _)) = (open[place], tasks[open[place]]);
+                let setting = begun[index].as_ref().ok_or(Interrupted)?;
+                lock(setting).timings.add(&self.scenes[scene].1, go_on)
+            });
+            if open.is_empty() || round.iter().any(Option::is_none) {
+                break;
+            }
+        }
         Measured {
-            rows: rows.into_iter().flatten().collect(),
+            rows: begun.iter().flatten().map(|setting| lock(setting).row()).collect(),
             wanted: tasks.len(),
             yardsticks: subjects.into_iter().flatten().map(|(_, yardstick)| yardstick).collect(),
         }
     }
 
     fn subject(&self, key: &str, scene: &Scene, go_on: GoOn) -> Result<(Subject, Yardstick), Interrupted> {
-        let subject = Subject::new(key, scene.clone(), go_on)?;
+        let subject = Subject::asking(key, scene.clone(), self.asked, go_on)?;
         let reference = &subject.reference;
         let price = cost(scene, reference.settings, reference.end, go_on)?;
         let yardstick = Yardstick {
@@ -167,8 +197,12 @@ impl Progress {
     }
 }
 
+fn lock(setting: &Mutex<Setting>) -> std::sync::MutexGuard<'_, Setting> {
+    setting.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
 /// The results of tasks 0 to `count` that could be done, by at most so many threads, each taking the next task.
-fn side_by_side<T: Send>(
+pub(super) fn side_by_side<T: Send>(
     count: usize,
     jobs: usize,
     task: impl Fn(usize) -> Result<T, Interrupted> + Sync,

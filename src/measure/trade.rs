@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::cost::{Cost, cost};
+use super::cost::Timings;
 use super::deviation::{Deviation, common_impacts, impact_time_error};
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::Rung;
@@ -16,9 +16,15 @@ use crate::scene::{Method, Scene, Settings};
 /// A horizon below this part of the run is short: most of the run cannot be judged by positions.
 const SHORT: f64 = 0.5;
 
+/// The error that the reference may have itself, m, unless told otherwise: the horizon is where it has more.
+pub const ASKED: f64 = 1e-6;
+
 /// A reference whose energy changes by less than this part of itself conserves it: then energies can be compared beyond
 /// the horizon.
 const CONSERVED: f64 = 1e-9;
+
+/// The doubt of a setting that is nearer to the reference than that is to the truth.
+pub(super) const BELOW: &str = "below the yardstick's own error";
 
 /// The errors of a run against a reference.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +46,13 @@ pub struct Errors {
     pub run: Sampled,
 }
 
+impl Errors {
+    /// Whether it is the reference itself once more.
+    fn is_exact(&self) -> bool {
+        self.position.distance == 0.0
+    }
+}
+
 /// Runs a setting beside a reference, up to the reference's last instant; given up once the deviation exceeds `limit`
 /// (m). `exact` gets no more than a reference would.
 ///
@@ -52,12 +65,24 @@ pub fn errors(
     limit: f64,
     go_on: GoOn,
 ) -> Result<Errors, Interrupted> {
-    let mut simulation = Simulation::new(scene, settings);
+    let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
+    errors_within(&mut Simulation::new(scene, settings), reference, (limit, budget), go_on)
+}
+
+/// The same of a simulation at t = 0, within a budget.
+///
+/// # Errors
+/// If `go_on` returns false.
+pub(super) fn errors_within(
+    simulation: &mut Simulation,
+    reference: &Reference,
+    (limit, budget): (f64, Budget),
+    go_on: GoOn,
+) -> Result<Errors, Interrupted> {
     let model = simulation.model().clone();
     let (meaningful, judged) = (reference.meaningful(), judged(reference));
     let (mut position, mut compared, mut energy) = (Deviation::default(), 0.0, 0.0);
-    let budget = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
-    let run = sample(&mut simulation, reference.instants, budget, go_on, |k, state| {
+    let run = sample(simulation, reference.instants, budget, go_on, |k, state| {
         if let Some(wanted) = reference.positions(k).filter(|_| state.t <= meaningful) {
             compared = state.t;
             let now = Deviation::between(&state.x, wanted);
@@ -103,7 +128,15 @@ impl Subject {
     /// # Errors
     /// If `go_on` returns false.
     pub fn new(key: &str, scene: Scene, go_on: GoOn) -> Result<Subject, Interrupted> {
-        let reference = Reference::of(&scene, scene.duration, Budget::REFERENCE, go_on)?;
+        Subject::asking(key, scene, ASKED, go_on)
+    }
+
+    /// The same, with the horizon where the certified error of the reference leaves what is `asked`, m.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub fn asking(key: &str, scene: Scene, asked: f64, go_on: GoOn) -> Result<Subject, Interrupted> {
+        let reference = Reference::certified(&scene, (asked, scene.duration), go_on)?;
         Ok(Subject { key: key.into(), scene, reference })
     }
 
@@ -112,38 +145,61 @@ impl Subject {
     /// # Errors
     /// If `go_on` returns false.
     pub fn measure(&self, rung: Rung, go_on: GoOn) -> Result<TradeRow, Interrupted> {
+        let mut setting = self.begin(rung, f64::INFINITY, go_on)?;
+        while setting.timings.wants_more() {
+            setting.timings.add(&self.scene, go_on)?;
+        }
+        Ok(setting.row())
+    }
+
+    /// Measures the errors of one setting, within so much processor time (s), and times it once.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub(super) fn begin(&self, rung: Rung, timeout: f64, go_on: GoOn) -> Result<Setting, Interrupted> {
         let Instants { until, .. } = self.reference.instants;
         let settings = rung.settings(until);
-        let errors = errors(&self.scene, settings, &self.reference, f64::INFINITY, go_on)?;
-        let cost = cost(&self.scene, settings, errors.end, go_on)?;
-        let note = self.note(&errors, &cost);
-        Ok(TradeRow {
+        let usual = if settings.method == Method::Exact { Budget::REFERENCE } else { Budget::UNLIMITED };
+        let budget = Budget { cpu: usual.cpu.min(timeout), ..usual };
+        let mut simulation = Simulation::new(&self.scene, settings);
+        let errors = errors_within(&mut simulation, &self.reference, (f64::INFINITY, budget), go_on)?;
+        let timings = Timings::begin(&self.scene, settings, errors.end, go_on)?;
+        let tallies = errors.run.tallies;
+        let row = TradeRow {
             scene: self.key.clone(),
             method: rung.method.name().into(),
             dt: rung.dt,
             tolerance: rung.tolerance,
             until: errors.end,
             horizon: self.reference.horizon.time,
+            certified: self.reference.own.map(|own| own.until),
+            floor: self.reference.own.map(|own| own.error),
             position_error: Some(errors.position.distance),
             impact_time_error: errors.impact_time,
             common_events: errors.common as u64,
             energy_error: errors.energy,
-            deepest_degree: errors.run.tallies.deepest_degree,
+            deepest_degree: tallies.deepest_degree,
             impacts: errors.run.impacts.len() as u64,
-            evaluations: errors.run.tallies.evaluations,
-            cpu_per_s: Some(cost.cpu_per_s).filter(|cost| cost.is_finite()), // of a run that stalls at its start
-            cpu_spread: cost.spread,
-            note,
-        })
+            evaluations: tallies.evaluations,
+            events: tallies.impacts + tallies.rests + tallies.releases,
+            frames: tallies.frames,
+            cpu_per_s: None,
+            cpu_median: None,
+            cpu_spread: None,
+            note: self.note(&errors),
+        };
+        Ok(Setting { row, timings })
     }
 
-    /// Reasons to doubt the figures of a run, a phrase each: first those that repeat, then those of the clock.
-    fn note(&self, errors: &Errors, cost: &Cost) -> Note {
+    /// Reasons to doubt the figures of a run that repeat, a phrase each.
+    fn note(&self, errors: &Errors) -> Note {
         let Reference { instants, horizon, doubt, .. } = &self.reference;
         let smallest = self.scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
         let stalled = errors.run.end_reason.as_ref().map(|end_reason| match end_reason {
             EndReason::Stalled(stall) => format!("{} s ({})", format::seconds(stall.time), stall.kind),
-            EndReason::Spent | EndReason::Enough => format!("{} s (passes its budget)", format::seconds(errors.end)),
+            EndReason::Spent | EndReason::Enough => {
+                format!("{} s (passes its budget or time-out)", format::seconds(errors.end))
+            }
         });
         let mut doubts = Vec::new();
         if !doubt.is_empty() {
@@ -152,13 +208,34 @@ impl Subject {
         if horizon.time.is_some_and(|time| time < SHORT * instants.until) {
             doubts.push("horizon short".into());
         }
+        if self.reference.own.is_some_and(|own| errors.position.distance < own.error) && !errors.is_exact() {
+            doubts.push(BELOW.into());
+        }
         if errors.position.distance > smallest {
             doubts.push("parted from the reference".into());
         }
         if errors.impact_time.is_none() && !self.reference.impacts.is_empty() {
             doubts.push("lacks one of the first impacts".into());
         }
-        doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
         Note { stalled, doubts }
+    }
+}
+
+/// A setting whose errors are measured and whose timings are under way.
+#[derive(Debug, Clone)]
+pub(super) struct Setting {
+    row: TradeRow,
+    pub(super) timings: Timings,
+}
+
+impl Setting {
+    /// What is known by now.
+    pub(super) fn row(&self) -> TradeRow {
+        let cost = self.timings.summary();
+        let finite = |cost: f64| Some(cost).filter(|cost| cost.is_finite()); // none of a run that stalls at its start
+        let mut row = self.row.clone();
+        (row.cpu_per_s, row.cpu_median, row.cpu_spread) = (finite(cost.cpu_per_s), finite(cost.median), cost.spread);
+        row.note.doubts.extend(cost.doubts.iter().map(|doubt| (*doubt).to_string()));
+        row
     }
 }

@@ -2,10 +2,14 @@
 
 use super::horizon;
 use super::interrupt::{GoOn, Interrupted};
-use super::reference::{Reference, settings};
+use super::reference::{OwnError, Reference, settings};
 use super::sample::{Budget, EndReason};
+use crate::certify::{Certificate, certify_within};
 use crate::format;
 use crate::scene::{Method, Scene, Settings};
+
+/// Pairs of bodies that a reference's certificate may look at: some ten seconds.
+const LOOKS: u64 = 300_000_000;
 
 /// The method that stands in where `exact` can't go on, and its finest setting: (name, dt in s, tolerance).
 const STAND_IN: (&str, f64, f64) = ("moreau", 1e-4, 1e-12);
@@ -33,6 +37,29 @@ impl Reference {
         }
         reference.horizon = horizon::of(scene, &reference, budget, go_on)?;
         Ok(reference)
+    }
+
+    /// The same, certified as well: its horizon is where the certified error leaves what is `asked` (m), or where displaced runs
+    /// have parted, if that is later.
+    ///
+    /// # Errors
+    /// If `go_on` returns false.
+    pub fn certified(scene: &Scene, (asked, until): (f64, f64), go_on: GoOn) -> Result<Reference, Interrupted> {
+        let reference = Reference::of(scene, until, Budget::REFERENCE, go_on)?;
+        if reference.settings.method != Method::Exact {
+            return Ok(reference);
+        }
+        let certificate = certify_within(scene, until, LOOKS, &|| go_on()).ok_or(Interrupted)?;
+        Ok(reference.with(&certificate, asked))
+    }
+
+    /// Its horizon put off to where a certificate's error leaves what is `asked` (m), if that is later.
+    pub(super) fn with(mut self, certificate: &Certificate, asked: f64) -> Reference {
+        let until = certificate.within(asked).min(self.end);
+        let meaningful = self.meaningful().max(until);
+        self.horizon.time = (meaningful < self.end).then_some(meaningful);
+        self.own = Some(OwnError { until, error: certificate.error.min(asked) });
+        self
     }
 
     /// Runs a scene by `exact` alone, to `until` (s) or as far as `budget` takes it, and finds its horizon.

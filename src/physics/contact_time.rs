@@ -94,8 +94,9 @@ impl Approach {
     fn grazes(&self) -> bool {
         let Approach { closing, bends, speed, acceleration, radius, size } = *self;
         let jerk = 3.0 * speed * (acceleration + speed * speed / radius) / radius;
-        // an approach that an impulse has made is none of rounding's, however shallow
-        -closing <= 64.0 * f64::EPSILON * speed
+        // an approach that an impulse has made is none of rounding's, however shallow; that of places turns the normal
+        let rounding = f64::EPSILON * (4.0 * size / radius).max(64.0);
+        -closing <= rounding * speed
             && bends > 0.0
             && closing * closing <= 2.0 * bends * GRAZE * size
             && -2.0 * jerk * closing <= bends * bends

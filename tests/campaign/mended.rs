@@ -30,3 +30,16 @@ pub(crate) const LABORIOUS: [(u64, u32); 73] = [
 
 /// Stacks that stood still at an instant, or took a thousand settlements for one contact that let go.
 pub(crate) const MENDED_STACKS: [(u64, u32); 3] = [(16, 3), (118, 2), (148, 2)];
+
+/// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity.
+pub(crate) const MENDED_FUNNELS: [(u64, u32); 3] = [(151, 5), (377, 2), (1825, 5)];
+
+/// Tubes: what just fits drifted into a wall, or was stopped by the rounding of the edges at the tube's end.
+#[rustfmt::skip]
+pub(crate) const MENDED_TUBES: [(u64, u32); 13] = [
+    (257, 1), (2951, 20), (3226, 17), (3761, 20), (4370, 20), (5548, 12), (6641, 8), (6743, 18), (6753, 14), (6920, 13),
+    (7479, 3), (7573, 6), (7661, 8),
+];
+
+/// Joints where the judge took the edge beside the foot for the closest point.
+pub(crate) const MENDED_JOINTS: [(u64, u32); 3] = [(1778, 2), (3125, 3), (3416, 3)];

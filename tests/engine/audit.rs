@@ -67,7 +67,7 @@ impl Bounce {
     /// What the judge finds if the frame has left this state and this contact.
     fn found(&self, state: &State, rows: &[Contact]) -> Vec<Fault> {
         let mut judge = Judge::new(self.run.model(), EXACT, &self.before);
-        judge.look(self.run.model(), &Frame { state, contacts: rows, events: rows });
+        judge.look(self.run.model(), &Frame { state, contacts: rows, events: rows, hidden: 0.0 });
         judge.findings().rows().iter().map(|finding| finding.fault).collect()
     }
 
@@ -148,7 +148,7 @@ fn momentum_that_nothing_gives_is_found() {
     state.x.iter_mut().zip(&state.v).for_each(|(x, v)| *x += *v);
     state.v.iter_mut().for_each(|v| *v *= 1.0 - 1e-6);
     let row = Contact { class: Class::Rest, time: state.t - 0.5, ..run.contacts()[0] };
-    judge.look(run.model(), &Frame { state: &state, contacts: &[row], events: &[] });
+    judge.look(run.model(), &Frame { state: &state, contacts: &[row], events: &[], hidden: 0.0 });
     let faults: Vec<Fault> = judge.findings().rows().iter().map(|finding| finding.fault).collect();
     assert!(faults.contains(&Fault::Momentum), "{faults:?}");
 }

@@ -140,3 +140,52 @@ fn what_just_fits_slides_along_its_tube_without_an_event() {
         );
     }
 }
+
+/// Where the walls end their edges are a few ulp of the coordinates off each other: no wedge that could stop a sphere.
+#[test]
+fn what_just_fits_leaves_its_tube_with_all_its_speed() {
+    for seed in 0..200_u64 {
+        let mut random = Random(seed);
+        let count = random.pick(&[2, 4, 4, 6]);
+        let r = random.pick(&[0.03, 0.1, 0.5]);
+        let out = random.vector().normalize_or(DVec3::Y);
+        let side = out.any_orthonormal_vector();
+        let (length, speed) = (random.between(2.0, 20.0), random.between(0.5, 3.0));
+        let plate = |k: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+            let normal = side * cos + out.cross(side) * sin;
+            wall(normal * r, normal.cross(out) * 8.0 * r, out * length)
+        };
+        let restitution = random.pick(&[0.0, 0.5, 1.0]);
+        let contact = ContactLaw { restitution, wall_restitution: restitution, rest_speed: 0.0, ..PAPER_LAW };
+        let walls = (0..count).map(plate).collect();
+        let scene = scene(DVec3::ZERO, contact, walls, vec![sphere(DVec3::ZERO, out * speed, r)]);
+        let (state, after) =
+            run(&scene, Method::Exact, 2.0 * length / speed).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
+        // ulps of coordinates of 20 m over a radius of 3 cm turn a normal by 1e-13
+        assert!(state.v[0].distance(out * speed) < 1e-12 * speed, "seed {seed}: {}", state.v[0]);
+        assert_eq!(after.tallies().rests, 0, "seed {seed}");
+    }
+}
+
+/// A row of spheres in a tube, struck along it: normals that lean by 1e-14 push them across, and nothing may drift into a wall.
+#[test]
+fn a_blow_along_a_tube_drives_nothing_into_its_walls() {
+    for seed in 0..200_u64 {
+        let mut random = Random(seed);
+        let (r, play) = (0.1, random.decade(-15.0, -12.0));
+        let walls = tube(random.pick(&[2, 4]), r * (1.0 + play), 0.0);
+        let restitution = random.pick(&[0.0, 0.5, 0.9]);
+        let contact = ContactLaw { restitution, wall_restitution: restitution, rest_speed: 0.0, ..PAPER_LAW };
+        let lean = || DVec3::X * (r * play);
+        let spheres = vec![
+            sphere(DVec3::ZERO - lean(), DVec3::Y * random.between(0.5, 3.0), r),
+            sphere(DVec3::Y * (2.0 * r + random.pick(&[0.0, 0.3])) + lean(), DVec3::ZERO, r),
+        ];
+        let scene = scene(DVec3::ZERO, contact, walls, spheres);
+        let (state, _) = run(&scene, Method::Exact, 10.0).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
+        let overlap = |x: &DVec3| scene.walls.iter().map(|wall| 1.0 - wall.shape.distance(*x) / r).fold(0.0, f64::max);
+        let deepest = state.x.iter().map(overlap).fold(0.0, f64::max);
+        assert!(deepest <= OVERLAP, "seed {seed}: {deepest:e}");
+    }
+}

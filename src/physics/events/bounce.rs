@@ -99,7 +99,8 @@ impl Mechanics {
         let lone = contact.flat && self.rests.count(a) == 0;
         // what else holds the sphere decides how it is pulled: that must not matter before the bounces are over
         let (still, pulled) = (Bounces { pull: DVec3::ZERO, ..bounces }, bounces.pull.length());
-        let ending = if lone { bounces } else { still }.ending(model.law.rest_speed / -contact.v_n);
+        let summed = if lone { bounces } else { still };
+        let ending = summed.ending(model.law.rest_speed / -contact.v_n);
         if !lone && 0.5 * pulled * ending.after * ending.after > PULLED * contact.reach {
             return;
         }
@@ -112,7 +113,7 @@ impl Mechanics {
         }
         let line = *self.trajectories.trajectory(a);
         self.trajectories.rewrite(a, line.x, mean);
-        let rub = Rub { keeps: ending.keeps, expected: mean + change, slip: ending.slip, share };
+        let rub = Rub::new(summed, ending, self.trajectories.now, mean, (bounces.pull, share));
         let until = self.trajectories.now + ending.after;
         self.rests.add(
             model,

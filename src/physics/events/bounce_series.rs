@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 /// Bounces still to come.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounces {
     /// Restitution, 0 < e < 1, and what an impact leaves of the tangential velocity, 0 ≤ τ ≤ 1.
     pub(super) e: f64,
@@ -33,6 +33,19 @@ pub(super) struct Ending {
     pub(super) slip: DVec3,
     /// What is left then of a tangential velocity added now.
     pub(super) keeps: f64,
+}
+
+/// A series between two bounces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Moment {
+    /// Speed at which the sphere left the face last, m/s.
+    pub(super) speed: f64,
+    /// Tangential velocity, m/s.
+    pub(super) slip: DVec3,
+    /// What is left of a tangential velocity added at the beginning.
+    pub(super) keeps: f64,
+    /// The way along the face since the beginning, m.
+    pub(super) way: DVec3,
 }
 
 /// m impacts: eᵐ, τᵐ and Σ τ^{m−1−i} eⁱ over i < m.
@@ -70,6 +83,19 @@ impl Bounces {
         let arrival = carried + pull * (time * power);
         let later = Bounces { slip: arrival * tangential, speed: speed * power, ..*self };
         Ending { after, way: self.whole_way() - later.whole_way(), slip: arrival, keeps: before_last.tangential }
+    }
+
+    /// Where the series is `elapsed` ≥ 0 (s) after it began, if it is not over by then.
+    pub(super) fn at(&self, elapsed: f64) -> Moment {
+        let Bounces { e, tangential, speed, slip, pull, .. } = *self;
+        // m flights last T e (1 − eᵐ)/(1 − e)
+        let whole = self.time() * e / (1.0 - e);
+        let done = self.above((1.0 - elapsed / whole).clamp(f64::MIN_POSITIVE, 1.0));
+        let flying = elapsed - whole * (1.0 - done.e);
+        let left = slip * done.tangential + pull * (self.time() * tangential * e * done.sum);
+        let later = Bounces { slip: left, speed: speed * done.e, ..*self };
+        let way = self.whole_way() - later.whole_way() + (left + pull * (0.5 * flying)) * flying;
+        Moment { speed: speed * e * done.e, slip: left + pull * flying, keeps: done.tangential, way }
     }
 
     /// How much of `pull` (dimensionless) moves the sphere on over the whole of an endless series.
@@ -134,6 +160,43 @@ mod tests {
             }
             slip *= tangential;
             keeps *= tangential;
+        }
+    }
+
+    #[test]
+    fn a_moment_of_a_series_is_the_one_that_counting_finds() {
+        for (e, tangential) in [0.1, 0.5, 0.9].into_iter().flat_map(|e| [0.0, 0.3, 0.99].map(|t| (e, t))) {
+            let (slip, pull) = (DVec3::X, DVec3::new(-0.5, 0.0, 2.0));
+            let bounces = Bounces { e, tangential, speed: 3.0, press: 8.0, slip, pull };
+            let (mut began, mut speed, mut now, mut keeps, mut so_far) = (0.0, 3.0 * e, slip, 1.0, DVec3::ZERO);
+            for bounce in 0..30 {
+                let flight = 2.0 * speed / 8.0;
+                for part in [0.001, 0.3, 0.999] {
+                    let found = bounces.at(began + part * flight);
+                    let t = part * flight;
+                    let way = so_far + (now + pull * (0.5 * t)) * t;
+                    let expected = Moment { speed, slip: now + pull * t, keeps, way };
+                    // the time within a flight that is short beside the series is a difference of times of a second
+                    let rounding = 1e-15 / flight;
+                    assert!(
+                        (found.speed - speed).abs() <= 1e-13 * speed + rounding,
+                        "{e} {bounce}: {found:?} {expected:?}"
+                    );
+                    assert!(
+                        (found.slip - expected.slip).length() <= 1e-13 + rounding,
+                        "{e} {bounce}: {found:?} {expected:?}"
+                    );
+                    assert!((found.way - expected.way).length() <= 1e-13, "{e} {bounce}: {found:?} {expected:?}");
+                    assert!((found.keeps - keeps).abs() <= 1e-13 + rounding, "{e} {bounce}: {found:?} {expected:?}");
+                }
+                so_far += (now + pull * (0.5 * flight)) * flight;
+                if flight < 1e-9 {
+                    break;
+                }
+                began += flight;
+                now = (now + pull * flight) * tangential;
+                (speed, keeps) = (speed * e, keeps * tangential);
+            }
         }
     }
 

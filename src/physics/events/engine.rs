@@ -199,6 +199,11 @@ impl<D: Detector> EventDriven<D> {
         self.schedule.bytes() + self.mechanics.bytes()
     }
 
+    /// Energy (J) at the end of the last frame of bounces that are summed up, which the state does not show.
+    pub(crate) fn hidden_energy(&self, model: &Model) -> f64 {
+        self.mechanics.rests.hidden_energy(model, &self.mechanics.trajectories, self.frame.time)
+    }
+
     /// Why a contact rests; none if it does not.
     pub(crate) fn rest_reason(&self, key: Key) -> Option<RestReason> {
         self.mechanics.rests.reason(key)

@@ -28,6 +28,14 @@ pub(super) fn note(log: &mut Log, row: Contact) {
 impl Mechanics {
     /// Two bodies touch while they approach, or are pressed together: an impact, or a rest that may begin.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
+        let struck = self.interrupt_series(model, log, key);
+        match self.met(model, log, key)? {
+            Changed::Nothing => Ok(struck),
+            changed => Ok(changed),
+        }
+    }
+
+    fn met(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
         let before = *self.trajectories.trajectory(key.1);
         let since = if key.0 == Kind::Pair { before.t.max(self.trajectories.trajectory(key.2).t) } else { before.t };
         let mut contact = self.advanced_contact(model, key);

@@ -91,6 +91,11 @@ impl<D: Detector> Resumable<D> {
     pub(crate) fn rest_reason(&self, key: Key) -> Option<RestReason> {
         self.engine.rest_reason(key)
     }
+
+    /// Energy of bounces that are summed up, which the state does not show, J.
+    pub(crate) fn hidden_energy(&self, model: &Model) -> f64 {
+        self.engine.hidden_energy(model)
+    }
 }
 
 impl<D: Detector> Engine for Resumable<D> {

@@ -1,24 +1,58 @@
-//! What is left of a tangential velocity by bounces on a wall that rubs, once they are over.
+//! Bounces on a wall that rubs, summed up: what they leave of a tangential velocity once they are over, or where something
+//! else strikes the sphere meanwhile.
 
 use glam::DVec3;
 
-/// What bounces that were summed up do to the tangential velocity of a sphere when they are over.
+use super::bounce_series::{Bounces, Ending};
+
+/// What bounces that were summed up do to the tangential velocity of a sphere. Until they are over it goes on with their mean
+/// velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rub {
-    /// What they leave of what was added meanwhile.
-    pub(crate) keeps: f64,
-    /// The tangential velocity that the sphere would have then if nothing else happened, m/s.
-    pub(crate) expected: DVec3,
-    /// The tangential velocity that it gets then, m/s.
-    pub(crate) slip: DVec3,
-    /// How much of the acceleration along the face acts until then.
+    /// The bounces; without `pull` where other contacts decide how the sphere is pulled.
+    bounces: Bounces,
+    /// When they began, s.
+    began: f64,
+    ending: Ending,
+    /// The velocity that the sphere was given when they began, m/s.
+    mean: DVec3,
+    /// How that changes if nothing else happens, m/s².
+    drift: DVec3,
+    /// How much of the acceleration along the face acts until they are over.
     pub(crate) share: f64,
 }
 
 impl Rub {
+    /// Bounces from `began` (s) on, over which a sphere moves at `mean` (m/s), changed by a `share` of `pull` (m/s²).
+    pub(crate) fn new(bounces: Bounces, ending: Ending, began: f64, mean: DVec3, (pull, share): (DVec3, f64)) -> Rub {
+        Rub { bounces, began, ending, mean, drift: pull * share, share }
+    }
+
     /// The velocity (m/s) after the bounces on a face with this normal, from the one that it had come to.
     pub(crate) fn end(&self, v: DVec3, normal: DVec3) -> DVec3 {
         let across = normal * normal.dot(v);
-        across + self.slip + (v - across - self.expected) * self.keeps
+        let expected = self.mean + self.drift * self.ending.after;
+        across + self.ending.slip + (v - across - expected) * self.ending.keeps
+    }
+
+    /// The velocity (m/s) at `time` (s), when something else strikes the sphere: that after the last bounce before, and what
+    /// pulls it since; from the one that it had come to. What is `applied` (m/s²) has worked along the way that it was shown
+    /// to go, which the speed allows for.
+    pub(crate) fn interrupt(&self, v: DVec3, normal: DVec3, time: f64, applied: DVec3) -> DVec3 {
+        let elapsed = time - self.began;
+        let at = self.bounces.at(elapsed);
+        // where other contacts decide how it is pulled, that has moved and changed it in either way
+        let changed = if self.bounces.pull == DVec3::ZERO { DVec3::ZERO } else { self.drift * elapsed };
+        let across = normal * normal.dot(v);
+        let real = at.slip + (v - across - self.mean - changed) * at.keeps + normal * at.speed;
+        let ahead = at.way - (self.mean + changed * 0.5) * elapsed;
+        let square = real.length_squared();
+        let share = 1.0 - 2.0 * applied.dot(ahead) / square.max(f64::MIN_POSITIVE);
+        real * share.max(0.0).sqrt()
+    }
+
+    /// How much more energy by unit of mass (m²/s²) the bounces have at `time` (s) than the velocity `v` (m/s) shows.
+    pub(crate) fn hidden_energy(&self, v: DVec3, normal: DVec3, time: f64, applied: DVec3) -> f64 {
+        0.5 * (self.interrupt(v, normal, time, applied).length_squared() - v.length_squared())
     }
 }

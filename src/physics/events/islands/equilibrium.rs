@@ -10,10 +10,7 @@ use glam::DVec3;
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
 use crate::physics::events::rounding::{BRUSH, HOP, SUM};
-use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, velocities};
-
-/// Cosine of the angle between the normals of contacts that oppose each other: within a millirad of straight.
-const OPPOSED: f64 = -1.0 + 1e-6;
+use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, restore, velocities};
 
 /// How much more than rounding it may cost to stop what opens by no more than rounding.
 const DEAR: f64 = 10.0;
@@ -49,11 +46,8 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let moves_apart = nothing_approaches(&resting, &velocity) || only_fits(&resting, &velocity);
-    let stopped = velocities(all, if moves_apart { &[] } else { &resting });
-    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
-    let slack: Vec<f64> =
-        bodies.iter().zip(&velocity).map(|(body, &v)| closed_speed(&Body { v, ..*body }, tick)).collect();
+    let slack: Vec<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
+    let (impulses, stopped) = stop_approaches(bodies, all, &resting, &slack);
     let opens = |contact: &Resting| {
         let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
@@ -63,7 +57,6 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
     let guess: Vec<f64> = closed.iter().map(|&index| loads[index]).collect();
     let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
-    let impulses = if stopped.multipliers.is_empty() { vec![0.0; contacts.len()] } else { stopped.multipliers.clone() };
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];
         change(contact.a) || contact.b.is_some_and(change)
@@ -76,7 +69,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
         forces: vec![0.0; contacts.len()],
         fate: vec![Fate::Opening; contacts.len()],
         curved: false,
-        converged: stopped.converged() && held.converged(),
+        converged: stopped && held.converged(),
     };
     for (place, &body) in held.bodies.iter().enumerate() {
         settled.a[body] = held.vectors[place];
@@ -95,6 +88,25 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     settled
 }
 
+/// Stops what approaches, by impulses (N s, by contact); whether they were found to rounding.
+fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack: &[f64]) -> (Vec<f64>, bool) {
+    let none = vec![0.0; resting.len()];
+    if nothing_approaches(resting, all.velocity) {
+        return (none, true);
+    }
+    let stopped = velocities(all, resting);
+    stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
+    let costs = |((body, v), slack): ((&Body, &DVec3), &f64)| body.v.distance(*v) > DEAR * slack;
+    let dear = bodies.iter().zip(all.velocity).zip(slack).any(costs);
+    if !(dear && approaches_by_rounding(bodies, resting, all.velocity)) {
+        return (stopped.multipliers.clone(), stopped.converged());
+    }
+    let squeezing = resting.iter().zip(&stopped.multipliers).filter(|(_, impulse)| **impulse > 0.0);
+    let v = restore(all.inverse_mass, all.velocity, &rows(squeezing.map(|(contact, _)| contact)));
+    bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+    (none, true)
+}
+
 /// Whether nothing approaches faster than rounding makes what moves along a wall seem to.
 fn nothing_approaches(resting: &[Resting], velocity: &[DVec3]) -> bool {
     !resting.iter().any(|contact| {
@@ -103,16 +115,26 @@ fn nothing_approaches(resting: &[Resting], velocity: &[DVec3]) -> bool {
     })
 }
 
-/// Whether nothing approaches but by rounding, and a body lies between two contacts that oppose each other: at the ends of
-/// two walls that a sphere just fits, to stop that much would take all of its speed.
-fn only_fits(resting: &[Resting], velocity: &[DVec3]) -> bool {
-    let approaches = |contact: &Resting| {
+/// Whether nothing approaches but by rounding, that of places too, which turns the normals of edges, corners and pairs.
+/// Where to stop that much changes a velocity by far more, its body lies between contacts that oppose each other: at the
+/// ends of two walls that a sphere just fits it would take all of its speed.
+fn approaches_by_rounding(bodies: &[Body], resting: &[Resting], velocity: &[DVec3]) -> bool {
+    !resting.iter().any(|contact| {
         let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
-        relative(contact, &|body| velocity[body]).dot(contact.normal) < -SUM * speed
-    };
-    let opposes = |(one, other): (&Resting, &Resting)| one.a == other.a && one.normal.dot(other.normal) < OPPOSED;
-    let pairs = || resting.iter().enumerate().flat_map(|(k, one)| resting[..k].iter().map(move |other| (one, other)));
-    pairs().any(opposes) && !resting.iter().any(approaches)
+        let size = |body: usize| bodies[body].x.abs().max_element();
+        let turned = match contact.surface {
+            Surface::Face => 1.0,
+            Surface::Edge { radius, .. } | Surface::Round { radius } => {
+                (contact.b.map_or(0.0, size).max(size(contact.a)) / radius).max(1.0)
+            }
+        };
+        relative(contact, &|body| velocity[body]).dot(contact.normal) < -SUM * speed * turned
+    })
+}
+
+/// Contacts as rows that hold.
+fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Vec<Row> {
+    resting.map(|contact| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 }).collect()
 }
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
@@ -183,17 +205,17 @@ impl Settled {
         let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
         let mut holds: Vec<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
         let mut v = before.clone();
+        // of a lone sphere that nothing pulls what is left would add up for as long as it slides along its walls
+        let alone = |contact: &Resting| contact.b.is_none() && bodies[contact.a].applied == DVec3::ZERO;
+        let precision = if resting.iter().all(alone) { BRUSH } else { SUM };
         loop {
-            let rows: Vec<Row> = (resting.iter().zip(&holds))
-                .filter(|(_, holds)| **holds)
-                .map(|(contact, _)| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 })
-                .collect();
+            let rows = rows(resting.iter().zip(&holds).filter(|(_, holds)| **holds).map(|(contact, _)| contact));
             if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
                 v = bind(inverse_mass, &before, &rows).0;
             }
             let approaches = |index: usize| {
                 let contact = &resting[index];
-                let noise = SUM * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
+                let noise = precision * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
                 let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
                 may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
             };

@@ -1,6 +1,6 @@
 //! What resting contacts carry: told at the end of a frame, and what tells a blow from rounding.
 
-use super::resting::{Load, Rests};
+use super::resting::{Load, RestingContact, Rests};
 use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::log::Log;
@@ -34,6 +34,17 @@ impl Rests {
         let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
         let force = self.held.get(&key).map_or(0.0, |held| held.load.force);
         force * (model.inverse_masses[key.1] + other)
+    }
+
+    /// Energy (J) at `time` (s) of bounces that are summed up: the state shows their mean velocity.
+    pub(crate) fn hidden_energy(&self, model: &Model, trajectories: &Trajectories, time: f64) -> f64 {
+        let of = |(&key, held): (&Key, &RestingContact)| {
+            let rub = held.rub.filter(|_| held.settles_at > time)?;
+            let (v, normal) =
+                (trajectories.path(key.1, time).v, trajectories.contact_geometry(model, key, time).normal);
+            Some(model.masses[key.1] * rub.hidden_energy(v, normal, time, model.acceleration(key.1)))
+        };
+        self.held.iter().filter_map(of).sum()
     }
 
     /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has

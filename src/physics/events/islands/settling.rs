@@ -52,6 +52,42 @@ impl Mechanics {
             log.contacts.push(row);
             log.event(row);
         }
+        self.set_free(model, key);
+    }
+
+    /// Bounces of a sphere on a wall that were summed up are told one by one from now on where something else strikes it: it
+    /// has the velocity then that they have left it, and not their mean one.
+    pub(crate) fn interrupt_series(&mut self, model: &Model, log: &mut Log, struck: Key) -> Changed {
+        let mut changed = Changed::Nothing;
+        for i in [Some(struck.1), (struck.0 == Kind::Pair).then_some(struck.2)].into_iter().flatten() {
+            for key in self.rests.of(i).to_vec() {
+                let held = self.rests.kept(key);
+                let Some(rub) = held.rub.filter(|_| key != struck && held.settles_at > self.trajectories.now) else {
+                    continue;
+                };
+                self.advance(model, i);
+                let (normal, line) =
+                    (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(i));
+                self.release(model, log, key);
+                let v = rub.interrupt(line.v, normal, self.trajectories.now, model.acceleration(i));
+                self.trajectories.rewrite(i, line.x, v);
+                self.trajectories.mark_changed(i);
+                self.rests.dirty.push(i);
+                changed = if struck.0 == Kind::Pair { Changed::Pair([struck.1, struck.2]) } else { Changed::Sphere(i) };
+            }
+        }
+        changed
+    }
+
+    /// What no longer rests on anything is pulled as in flight from now on: what it meets at this instant asks how it is
+    /// pressed, before any island is solved.
+    fn set_free(&mut self, model: &Model, (kind, a, b): Key) {
+        for i in [Some(a), (kind == Kind::Pair).then_some(b)].into_iter().flatten() {
+            if self.rests.of[i].is_empty() {
+                self.advance(model, i);
+                self.trajectories.accelerate(i, model.acceleration(i));
+            }
+        }
     }
 
     /// The parabolas of an island end: a foot comes to the end of its part, an arc or its chord is over.

@@ -1,0 +1,77 @@
+//! Rows of `judge --json`: a trajectory marked, an object a line.
+
+use serde::Serialize;
+
+use super::table::Row;
+
+/// A trajectory marked. Nothing: there is no such figure.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct MarkRow {
+    /// The file.
+    pub file: String,
+    /// `passes`, `fails`, `unreadable`, or `marked` where no tolerance was asked for.
+    pub verdict: String,
+    /// Why the file cannot be read: line, and what is wrong there.
+    pub problem: Option<String>,
+    /// Largest position error that passes, m.
+    pub tolerance: Option<f64>,
+    /// Up to when `exact` may be held against others, s; none against another file.
+    pub horizon: Option<f64>,
+    /// Times in the file, the last of them, s, and the longest time between two, s.
+    pub moments: u64,
+    /// The last time, s.
+    pub end: f64,
+    /// The longest time between two, s.
+    pub spacing: f64,
+    /// Up to when positions were compared, s.
+    pub compared: f64,
+    /// Largest position error, m.
+    pub error: Option<f64>,
+    /// When, s.
+    pub error_time: Option<f64>,
+    /// Of which sphere.
+    pub error_sphere: Option<usize>,
+    /// How far places between rows of the other file are uncertain, m.
+    pub interpolation_error: f64,
+    /// `missing`, `late`, `early` or `extra`: the first impact that is wrong.
+    pub wrong_impact: Option<String>,
+    /// When, s.
+    pub wrong_impact_time: Option<f64>,
+    /// By how much it is late, s; below 0: early.
+    pub wrong_impact_delay: Option<f64>,
+    /// `wall` or `pair`.
+    pub wrong_impact_kind: Option<String>,
+    /// The sphere, and the wall or second sphere.
+    pub wrong_impact_bodies: Option<[usize; 2]>,
+    /// Impacts found of those of the standard.
+    pub impacts_found: Option<usize>,
+    /// Impacts of the standard that the rows can show, up to `compared`.
+    pub impacts_wanted: Option<usize>,
+    /// Deepest intersection degree in any row; when, s.
+    pub deepest_degree: f64,
+    /// When, s.
+    pub deepest_time: Option<f64>,
+    /// Energy at the first row, J.
+    pub energy_start: Option<f64>,
+    /// Energy at the last row, J.
+    pub energy_end: Option<f64>,
+    /// By how much it rises above the least before, J.
+    pub energy_rise: Option<f64>,
+    /// Largest |E − E_exact|, J.
+    pub energy_error: Option<f64>,
+    /// Largest momentum that an impact of a pair by itself makes or loses, as a part of what it exchanges.
+    pub momentum_error: Option<f64>,
+    /// When a velocity first changes without a contact, s.
+    pub unexplained_time: Option<f64>,
+    /// The likeliest mistake.
+    pub mistake: Option<String>,
+    /// In how many cases it was seen, and of how many.
+    pub mistake_seen: Option<[u64; 2]>,
+    /// Times, s, and the largest errors of the rows around them, m.
+    pub errors: Vec<(f64, f64)>,
+}
+
+impl Row for MarkRow {
+    /// A row holds a list: it is written as JSON only.
+    const COLUMNS: &'static [&'static str] = &[];
+}

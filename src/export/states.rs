@@ -1,0 +1,393 @@
+//! States of any program, read from CSV: a moment at a time, so that a file of any length takes the memory of one moment.
+
+use std::io::{self, BufRead, BufReader, Read};
+
+use glam::DVec3;
+
+use super::rows::StateRow;
+use super::table::Row;
+use super::trade::{CELL, ReadError, explain};
+use crate::printable;
+
+/// Longest line that is read, bytes: a file without line ends must not fill the memory.
+const LINE: usize = 1 << 16;
+
+/// How many columns there are: time, sphere, three of place, three of velocity.
+const COLUMNS: usize = 8;
+
+/// What stands between two cells: the first of these that comes most often in the first line.
+const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
+
+/// What a file calls the columns `time,sphere,x,y,z,vx,vy,vz`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Columns([String; COLUMNS]);
+
+impl Default for Columns {
+    fn default() -> Columns {
+        Columns(std::array::from_fn(|k| StateRow::COLUMNS[k].into()))
+    }
+}
+
+impl Columns {
+    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours.
+    ///
+    /// # Errors
+    /// A part without `=`, a name that is none of ours, one of ours named twice.
+    pub fn parse(text: &str) -> Result<Columns, String> {
+        let (mut columns, mut named) = (Columns::default(), [false; COLUMNS]);
+        for part in text.split(',') {
+            let pair = part.split_once('=').map(|(theirs, ours)| (theirs.trim(), ours.trim()));
+            let (theirs, ours) =
+                pair.filter(|pair| !pair.0.is_empty()).ok_or("must be THEIRS=OURS, such as t=time,px=x")?;
+            let k = StateRow::COLUMNS.iter().position(|name| *name == ours);
+            let k = k.ok_or_else(|| format!("{ours:?} is none of {}", StateRow::COLUMNS.join(",")))?;
+            if std::mem::replace(&mut named[k], true) {
+                return Err(format!("{ours:?} is named twice"));
+            }
+            columns.0[k] = theirs.into();
+        }
+        Ok(columns)
+    }
+}
+
+/// All spheres at one time, as a file has them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Moment {
+    /// When, s.
+    pub time: f64,
+    /// Line of its first row, from 1.
+    pub line: u64,
+    /// Centres, m, by sphere index.
+    pub x: Vec<DVec3>,
+    /// Velocities, m/s, by sphere index; empty if the file has none.
+    pub v: Vec<DVec3>,
+}
+
+/// A file of states, read moment by moment.
+#[derive(Debug)]
+pub struct States<R: Read> {
+    csv: csv::Reader<Lines<BufReader<R>>>,
+    record: csv::StringRecord,
+    /// Which cell of a row holds each of our columns.
+    cells: [Option<usize>; COLUMNS],
+    /// Cells of a row.
+    width: usize,
+    spheres: usize,
+    /// The first row of the next moment.
+    ahead: Option<Found>,
+    last: Option<f64>,
+}
+
+/// A row.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    line: u64,
+    time: f64,
+    sphere: usize,
+    x: DVec3,
+    v: DVec3,
+}
+
+impl<R: Read> States<R> {
+    /// Reads the first line. The file has rows of so many spheres; without a column `sphere` of one.
+    ///
+    /// # Errors
+    /// A reader that fails, an empty file, a column that is missing.
+    pub fn new(reader: R, columns: &Columns, spheres: usize) -> Result<States<R>, ReadError> {
+        let mut lines = Lines { inner: BufReader::new(reader), length: 0 };
+        let first = lines.inner.fill_buf().map_err(|error| ReadError(format!(" {}", printable::cause(&error))))?;
+        let first = first.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let count = |delimiter: u8| first.iter().filter(|byte| **byte == delimiter).count();
+        let delimiter = DELIMITERS.into_iter().rev().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b',');
+        let mut csv = csv::ReaderBuilder::new();
+        let csv = csv.has_headers(false).flexible(true).trim(csv::Trim::All).delimiter(delimiter).from_reader(lines);
+        let mut states = States {
+            csv,
+            record: csv::StringRecord::new(),
+            cells: [None; COLUMNS],
+            width: 0,
+            spheres,
+            ahead: None,
+            last: None,
+        };
+        states.header(columns)?;
+        states.ahead = states.row()?;
+        match states.ahead {
+            Some(_) => Ok(states),
+            None => Err(ReadError("2: the file ends after its column names; wanted are rows".into())),
+        }
+    }
+
+    fn header(&mut self, columns: &Columns) -> Result<(), ReadError> {
+        let ours = || columns.0.join(",");
+        if !self.csv.read_record(&mut self.record).map_err(|error| ReadError(explain(&error)))? {
+            return Err(ReadError(format!("1: the file is empty; wanted are rows under the names {}", ours())));
+        }
+        self.width = self.record.len();
+        for (k, name) in columns.0.iter().enumerate() {
+            self.cells[k] = self.record.iter().position(|cell| cell == name);
+        }
+        let moves = self.cells[5..].iter().any(Option::is_some);
+        let needed = |k: usize| match k {
+            1 => self.spheres > 1,
+            5.. => moves,
+            _ => true,
+        };
+        if let Some(k) = (0..COLUMNS).find(|&k| self.cells[k].is_none() && needed(k)) {
+            let found = self.record.iter().collect::<Vec<_>>().join(",");
+            return Err(ReadError(format!(
+                "1: there is no column {}; the first line is \"{}\"; say with --columns what the file calls {}",
+                columns.0[k],
+                printable::shortened(&found, CELL),
+                StateRow::COLUMNS[k],
+            )));
+        }
+        Ok(())
+    }
+
+    /// The next moment; none at the end of the file.
+    ///
+    /// # Errors
+    /// A row that is none, a time that goes back, a sphere that is missing at a time or comes twice.
+    pub fn moment(&mut self) -> Result<Option<Moment>, ReadError> {
+        let Some(first) = self.ahead.take() else { return Ok(None) };
+        if self.last.is_some_and(|last| first.time < last) {
+            let last = self.last.unwrap_or_default();
+            return Err(ReadError(format!(
+                "{}: time is {:?} after {last:?}; wanted are rows in the order of time",
+                first.line, first.time
+            )));
+        }
+        self.last = Some(first.time);
+        let moves = self.cells[5].is_some();
+        let mut moment = Moment { time: first.time, line: first.line, ..Moment::default() };
+        moment.x.resize(self.spheres, DVec3::NAN);
+        moment.v.resize(if moves { self.spheres } else { 0 }, DVec3::ZERO);
+        let mut row = Some(first);
+        while let Some(found) = row.filter(|found| found.time == first.time) {
+            let complete = || moment.x.iter().all(|x| !x.is_nan());
+            if !moment.x[found.sphere].is_nan() && complete() {
+                break; // the same time again, as before and after an impact
+            }
+            if !moment.x[found.sphere].is_nan() {
+                let (line, time, sphere) = (found.line, found.time, found.sphere);
+                return Err(ReadError(format!("{line}: sphere {sphere} comes twice at the time {time:?}")));
+            }
+            moment.x[found.sphere] = found.x;
+            if moves {
+                moment.v[found.sphere] = found.v;
+            }
+            row = self.row()?;
+        }
+        self.ahead = row;
+        match moment.x.iter().position(|x| x.is_nan()) {
+            None => Ok(Some(moment)),
+            Some(sphere) => Err(self.lacks(&moment, sphere)),
+        }
+    }
+
+    fn lacks(&self, moment: &Moment, sphere: usize) -> ReadError {
+        let (line, time) = (moment.line, moment.time);
+        let end = if self.ahead.is_none() { ", where the file ends" } else { "" };
+        ReadError(format!("{line}: there is no row of sphere {sphere} at the time {time:?}{end}"))
+    }
+
+    fn row(&mut self) -> Result<Option<Found>, ReadError> {
+        let more = self.csv.read_record(&mut self.record);
+        if !more.map_err(|error| ReadError(self.explained(&error)))? {
+            return Ok(None);
+        }
+        let line = self.line();
+        if self.record.len() != self.width {
+            let found = self.record.len();
+            return Err(ReadError(format!("{line}: {found} cells, where {} are wanted", self.width)));
+        }
+        let sphere = self.sphere(line)?;
+        let mut values = [0.0; COLUMNS];
+        for (k, value) in values.iter_mut().enumerate().filter(|(k, _)| *k != 1) {
+            *value = self.number(line, k)?;
+        }
+        let [time, _, x, y, z, vx, vy, vz] = values;
+        if time < 0.0 {
+            return Err(ReadError(format!("{line}: time is {time:?}; wanted is a number from 0")));
+        }
+        Ok(Some(Found { line, time, sphere, x: DVec3::new(x, y, z), v: DVec3::new(vx, vy, vz) }))
+    }
+
+    /// The line of the row read last: a row begins for the reader where the one before ended, which may be an empty line.
+    fn line(&self) -> u64 {
+        let begins = self.record.position().map_or(0, csv::Position::line);
+        self.csv.position().line().saturating_sub(1).max(begins)
+    }
+
+    fn explained(&self, error: &csv::Error) -> String {
+        let line = self.csv.position().line();
+        match error.kind() {
+            csv::ErrorKind::Io(cause) if cause.kind() == io::ErrorKind::InvalidData => format!("{line}: {cause}"),
+            _ => explain(error),
+        }
+    }
+
+    fn sphere(&self, line: u64) -> Result<usize, ReadError> {
+        let Some(index) = self.cells[1] else { return Ok(0) };
+        let cell = self.record.get(index).unwrap_or_default();
+        let number = cell.parse::<f64>().ok().filter(|number| number.fract() == 0.0 && *number >= 0.0);
+        match number.map(|number| number as usize).filter(|sphere| *sphere < self.spheres) {
+            Some(sphere) => Ok(sphere),
+            None => Err(ReadError(format!(
+                "{line}: sphere (column {}) is \"{}\"; the scene's spheres are 0 to {}",
+                index + 1,
+                printable::shortened(cell, CELL),
+                self.spheres.saturating_sub(1),
+            ))),
+        }
+    }
+
+    /// The number of our column `k`; 0 if the file has none.
+    fn number(&self, line: u64, k: usize) -> Result<f64, ReadError> {
+        let Some(index) = self.cells[k] else { return Ok(0.0) };
+        let cell = self.record.get(index).unwrap_or_default();
+        match cell.parse::<f64>().ok().filter(|number| number.is_finite()) {
+            Some(number) => Ok(number),
+            None => Err(ReadError(format!(
+                "{line}: {} (column {}) is \"{}\"; wanted is a finite number",
+                StateRow::COLUMNS[k],
+                index + 1,
+                printable::shortened(cell, CELL),
+            ))),
+        }
+    }
+}
+
+/// A reader that refuses lines longer than [`LINE`].
+#[derive(Debug)]
+struct Lines<R> {
+    inner: R,
+    /// Bytes since the last line end.
+    length: usize,
+}
+
+impl<R: Read> Read for Lines<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let mut read = self.inner.read(buffer)?;
+        while read > 0 && buffer[..read].iter().all(|byte| *byte == b'\r') {
+            read = self.inner.read(buffer)?;
+        }
+        // Lines that end as on Windows would be counted one behind.
+        let mut kept = 0;
+        for index in 0..read {
+            if buffer[index] != b'\r' {
+                buffer[kept] = buffer[index];
+                kept += 1;
+            }
+        }
+        read = kept;
+        for line in buffer[..read].split_inclusive(|byte| *byte == b'\n') {
+            self.length += line.len();
+            if self.length > LINE {
+                let message = format!("a line of more than {LINE} bytes; wanted are rows of numbers");
+                return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+            }
+            if line.ends_with(b"\n") {
+                self.length = 0;
+            }
+        }
+        Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEAD: &str = "time,sphere,x,y,z,vx,vy,vz\n";
+
+    fn all(text: &str, columns: &Columns, spheres: usize) -> Result<Vec<Moment>, String> {
+        let mut states = States::new(text.as_bytes(), columns, spheres).map_err(|error| error.to_string())?;
+        let mut moments = Vec::new();
+        while let Some(moment) = states.moment().map_err(|error| error.to_string())? {
+            moments.push(moment);
+        }
+        Ok(moments)
+    }
+
+    #[test]
+    fn moments_are_read_whatever_the_order_of_spheres_and_the_names_of_columns() {
+        let text = "vx;t;ball;px;y;z;vy;vz;extra\n1;0;1;2;3;4;5;6;a\n0;0;0;7;0;0;0;0;b\n\n0;0.5;0;0;0;0;0;0;c\n0;0.5;1;0;0;0;0;0;d\n";
+        let columns = Columns::parse("t=time, ball=sphere,px=x").expect("a mapping");
+        let moments = all(text, &columns, 2).expect("a file");
+        assert_eq!((moments.len(), moments[1].time, moments[1].line), (2, 0.5, 5));
+        assert_eq!((moments[0].x[1], moments[0].v[1]), (DVec3::new(2.0, 3.0, 4.0), DVec3::new(1.0, 5.0, 6.0)));
+        assert_eq!(moments[0].x[0], DVec3::new(7.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn lines_are_counted_whatever_ends_them() {
+        for end in ["\n", "\r\n"] {
+            let text = "time,x,y,z\n0,1,2,3\n1,1,2,3\n2,1,2,3".replace('\n', end);
+            let moments = all(&text, &Columns::default(), 1).expect("a file");
+            assert_eq!(moments.iter().map(|moment| moment.line).collect::<Vec<_>>(), [2, 3, 4], "{end:?}");
+        }
+    }
+
+    #[test]
+    fn a_time_may_come_again_as_before_and_after_an_impact() {
+        let moments = all("time,x,y,z\n0,1,2,3\n1,1,2,3\n1,4,5,6\n2,0,0,0\n", &Columns::default(), 1).expect("a file");
+        assert_eq!(moments.iter().map(|moment| moment.time).collect::<Vec<_>>(), [0.0, 1.0, 1.0, 2.0]);
+        assert_eq!(moments[2].x, [DVec3::new(4.0, 5.0, 6.0)]);
+    }
+
+    #[test]
+    fn one_sphere_needs_no_index_and_a_file_of_places_no_velocities() {
+        let moments = all("time,x,y,z\n0,1,2,3\n1,1,2,3\n", &Columns::default(), 1).expect("a file");
+        assert_eq!((moments.len(), moments[0].v.len()), (2, 0));
+        assert!(all("time,x,y,z\n0,1,2,3\n", &Columns::default(), 2).expect_err("two spheres").contains("sphere"));
+    }
+
+    #[test]
+    fn a_broken_file_is_refused_with_its_line_and_column() {
+        let row = |text: &str| format!("{HEAD}0,0,1,2,3,4,5,6\n0,1,1,2,3,4,5,6\n{text}\n");
+        for (text, words) in [
+            (String::new(), &["1: ", "empty", "time,sphere"][..]),
+            (HEAD.into(), &["2: ", "ends"]),
+            ("a,b\n1,2\n".into(), &["1: ", "no column time", "\"a,b\"", "--columns"]),
+            ("time,sphere,x,y,z,vx,vy\n".into(), &["1: ", "no column vz"]),
+            (row("1,0,1,2,soon,4,5,6"), &["4: ", "z (column 5) is \"soon\""]),
+            (row("1,0,1,2,NaN,4,5,6"), &["4: ", "z (column 5)", "finite"]),
+            (row("1,0,1,2,3,4,5"), &["4: ", "7 cells", "8"]),
+            (row("1,2,1,2,3,4,5,6"), &["4: ", "sphere (column 2) is \"2\"", "0 to 1"]),
+            (row("1,0.5,1,2,3,4,5,6"), &["4: ", "sphere", "0.5"]),
+            (row("-1,0,1,2,3,4,5,6"), &["4: ", "time is -1"]),
+            (row("1,0,1,2,3,4,5,6"), &["4: ", "no row of sphere 1 at the time 1.0, where the file ends"]),
+            (row("1,0,1,2,3,4,5,6\n1,0,1,2,3,4,5,6"), &["5: ", "sphere 0 comes twice at the time 1.0"]),
+            (row("1,0,1,2,3,4,5,6\n1,1,1,2,3,4,5,6\n1,0,0,0,0,0,0,0"), &["6: ", "no row of sphere 1", "file ends"]),
+            (row("1,0,1,2,3,4,5,6\n2,0,1,2,3,4,5,6"), &["4: ", "no row of sphere 1 at the time 1.0"]),
+            (
+                row("1,0,1,2,3,4,5,6\n1,1,1,2,3,4,5,6\n0.5,0,1,2,3,4,5,6\n0.5,1,1,2,3,4,5,6"),
+                &["6: ", "time is 0.5 after 1.0", "order"],
+            ),
+            (row("1,0,\u{1b}[2J,2,3,4,5,6"), &["4: ", "x (column 3)", "\\u{1b}"]),
+        ] {
+            let error = all(&text, &Columns::default(), 2).expect_err(&text);
+            assert!(words.iter().all(|word| error.contains(word)), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_line_without_end_is_refused_before_it_fills_the_memory() {
+        let endless = std::io::repeat(b'1').take(1 << 30);
+        let error = States::new(endless, &Columns::default(), 1).expect_err("no line end").to_string();
+        assert!(error.contains("a line of more than 65536 bytes"), "{error}");
+        let late = HEAD.as_bytes().chain(b"0,0,1,2,3,4,5,6\n".chain(std::io::repeat(b'1').take(1 << 30)));
+        let mut states = States::new(late, &Columns::default(), 1).expect("a first row");
+        let error = states.moment().expect_err("no line end").to_string();
+        assert!(error.starts_with("3: a line of more"), "{error}");
+    }
+
+    #[test]
+    fn a_mapping_names_each_of_our_columns_once() {
+        for (text, word) in [("t", "THEIRS=OURS"), ("=time", "THEIRS"), ("t=when", "\"when\""), ("a=x,b=x", "twice")] {
+            assert!(Columns::parse(text).expect_err(text).contains(word), "{text}");
+        }
+    }
+}
