@@ -167,7 +167,7 @@ const TABLE: &[Binding] = &[
     bind(
         &[K::char(':')],
         Action::Prompt,
-        "exact values: dt 1e-3, tolerance 1e-9, speed 0.1, goto 3.25, until rest, show forces",
+        "exact values: dt 1e-3, tolerance 1e-9, goto 3.25, until rest, show forces",
     ),
     bind(&[K::char('%')], Action::Mouse, "mouse on, off"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),

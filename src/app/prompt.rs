@@ -187,7 +187,7 @@ mod tests {
     fn an_error_names_the_value_and_what_is_allowed() {
         assert_eq!(
             read("dtt 1"),
-            Err("There is no :dtt; there are dt, tolerance, speed, goto, hash, until, method, scene, select.".into())
+            Err("There is no :dtt; there are dt, tolerance, speed, goto, hash, until, method, scene, select, show, hide.".into())
         );
         assert_eq!(read("hash 1"), Err(":hash takes no value: it tells the hash of the state shown.".into()));
         assert_eq!(
@@ -215,7 +215,8 @@ mod tests {
         let offers = |text: &str| {
             super::offers(text, &Context { spheres: 3, walls: 1, selected: None, scenes: &scenes }).join(" ")
         };
-        assert_eq!(offers("s"), "speed scene select");
+        assert_eq!(offers("s"), "speed scene select show");
+        assert_eq!(offers("hide path pre"), "predicted");
         assert_eq!(offers("scene p"), "paper-0 pile");
         assert_eq!(offers("until "), until::WORDS.join(" "));
         assert_eq!(offers("until rest 2 "), "wall");

@@ -37,7 +37,8 @@ impl Watch {
 
     /// The count that a row tells of.
     pub(super) fn of_row(row: DVec3) -> Watch {
-        Watch { since: row.x, cut: row.y as u64, owed: row.z, stuck: false }
+        // a file may say any number, and counting must be able to go on from it
+        Watch { since: row.x, cut: (row.y as u64).min(1 << 52), owed: row.z, stuck: false }
     }
 
     /// Counts a frame that brought this much time, s, and was or was not cut short by a search.
