@@ -164,11 +164,7 @@ const TABLE: &[Binding] = &[
     bind(&[K::char('0'), K::plain(Code::Home)], Action::WholeScene, "whole scene"),
     bind(&[K::char('e')], Action::TakeAway, "write the picture (SVG) and the state as a scene that goes on from here"),
     bind(&[K::char('E')], Action::Record, "record the run (.carom), changes of settings included; again: write it"),
-    bind(
-        &[K::char(':')],
-        Action::Prompt,
-        "exact values: dt 1e-3, tolerance 1e-9, goto 3.25, until rest, show forces",
-    ),
+    bind(&[K::char(':')], Action::Prompt, "exact values: dt 1e-3, tolerance 1e-9, goto 3.25, until rest, show forces"),
     bind(&[K::char('%')], Action::Mouse, "mouse on, off"),
     bind(&[K::ctrl('l')], Action::Repaint, "repaint"),
     bind(&[K::ctrl('z')], Action::Suspend, "suspend"),
