@@ -1,7 +1,7 @@
 //! Trajectories of any program, marked: held against `exact` up to where that is certified, or against each other.
 //!
 //! A file is read moment by moment (`export::States`); beside it `exact` runs to the same times, so that nothing is
-//! interpolated and no file fills the memory. An [`Observer`](observer) looks at the trajectory by itself: velocities that change
+//! interpolated and no file fills the memory. An `Observer` looks at the trajectory by itself: velocities that change
 //! by more than pulls explain are impacts, and what they break of the law tells known mistakes.
 //!
 //! | file | owns |

@@ -6,7 +6,7 @@ use super::reference::Reference;
 use super::report::setting;
 use super::sample::{Budget, EndReason};
 use super::trade::errors_within;
-use super::work::{counted, least};
+use super::work::{counted, least, priced};
 use crate::certify::{Certificate, certify_within};
 use crate::format;
 use crate::physics::Simulation;
@@ -110,7 +110,7 @@ pub fn choose(
     let ended = search.met.first().map(|tried| (*tried, None));
     let held = farthest.map(|(tried, until)| (tried, Some(until)));
     let nothing = || Miss::Nothing(nothing(wanted, methods, &reference, cut_short > 0));
-    let (chosen, tried_until) = ended.or(held).ok_or_else(nothing)?;
+    let (chosen, tried_until) = ended.or(held).or(reference_run(&reference, methods)).ok_or_else(nothing)?;
     let Rung { method, dt, tolerance } = chosen.rung;
     Ok(Choice {
         settings: Settings {
@@ -126,6 +126,13 @@ pub fn choose(
         floor: certificate.error.min(FLOOR * wanted),
         settings_tried: (all, cut_short),
     })
+}
+
+/// `exact` itself, which has come as far as positions mean something, if it may be chosen: the last resort. And how far it came, s.
+fn reference_run(reference: &Reference, methods: &[Method]) -> Option<(Tried, Option<f64>)> {
+    let rung = Rung { method: Method::Exact, dt: None, tolerance: None };
+    let tried = Tried { rung, error: 0.0, work: priced(Method::Exact, &reference.tallies) };
+    methods.contains(&Method::Exact).then_some((tried, Some(reference.end)))
 }
 
 /// `exact` up to where positions mean something: where it is certified to a part of the error asked for, or where displaced runs have

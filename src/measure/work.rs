@@ -23,8 +23,13 @@ fn prices(method: Method) -> Prices {
 
 /// What a simulation has cost since t = 0, ns of counted work.
 pub(super) fn counted(run: &Simulation) -> u64 {
-    let Prices { frame, gap, impact, turn } = prices(run.settings().method);
-    let Tallies { frames, evaluations, impacts, relaxations, .. } = run.tallies();
+    priced(run.settings().method, &run.tallies())
+}
+
+/// The price of what a method has counted, ns.
+pub(super) fn priced(method: Method, tallies: &Tallies) -> u64 {
+    let Prices { frame, gap, impact, turn } = prices(method);
+    let Tallies { frames, evaluations, impacts, relaxations, .. } = *tallies;
     frames * frame + evaluations * gap + impacts * impact + relaxations * turn
 }
 
