@@ -17,6 +17,8 @@ const MOTION: f64 = 1e-11;
 pub(super) struct Energy {
     least: f64,
     last: f64,
+    /// What was hidden of it, J.
+    hidden: f64,
     /// Largest Σ of the energy's terms, each taken positive, J: what rounding is relative to.
     size: f64,
     impacts: u64,
@@ -25,7 +27,7 @@ pub(super) struct Energy {
 impl Energy {
     pub(super) fn new(model: &Model, state: &State) -> Energy {
         let (least, size) = energy(model, state);
-        Energy { least, last: least, size, impacts: 0 }
+        Energy { least, last: least, hidden: 0.0, size, impacts: 0 }
     }
 
     /// By how much a state's energy, with what is `hidden` of it (J), is above the least seen, and what rounding allows, J;
@@ -51,10 +53,12 @@ impl Energy {
         explained: Option<f64>,
         findings: &mut Findings,
     ) {
+        // bounces that are summed up take what they take without being told
+        let bounces = std::mem::replace(&mut self.hidden, hidden) != 0.0 || hidden != 0.0;
         let before = self.last;
         let rise = self.rise(model, (state, hidden), impacts);
         findings.hold(Fault::Energy, state.t, Bodies::All, rise);
-        if let Some(explained) = explained {
+        if let Some(explained) = explained.filter(|_| !bounces) {
             let lost = [before - self.last - explained, MOTION * self.size];
             findings.hold(Fault::Loss, state.t, Bodies::All, lost);
         }

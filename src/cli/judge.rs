@@ -6,6 +6,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::thread;
 
+use super::accuracy::from_its_start;
 use super::arguments::Judge;
 use super::failure::Failure;
 use super::output::Output;
@@ -25,6 +26,7 @@ pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure>
     refuse_steps(arguments)?;
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Usage(error.to_string()))?;
     opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
+    from_its_start(&opened.scene, "judge")?;
     let files = Files::open(arguments)?;
     let go_on = || signals.check().is_ok();
     let until = arguments.until.unwrap_or(opened.scene.duration);

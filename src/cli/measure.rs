@@ -197,6 +197,7 @@ const CROWD: ([f64; 2], f64) = ([1e-2, 5e-3], 1e-6);
 fn crowd(arguments: &Measure, seeds: usize, signals: &Signals) -> Result<(), Failure> {
     let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
     let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
+    opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
     let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
     refuse_shared(&outputs(arguments), &inputs)?;
     let files = Files::open(arguments)?;

@@ -59,6 +59,8 @@ pub(crate) struct Pty {
     watch: watch::Watch,
     /// Everything the program has written.
     pub(crate) output: Vec<u8>,
+    /// Where it runs.
+    _folder: tempfile::TempDir,
 }
 
 impl Start<'_> {
@@ -68,7 +70,8 @@ impl Start<'_> {
         let pair = native_pty_system().openpty(size).expect("a pseudo-terminal");
         let mut command = CommandBuilder::new(self.program);
         command.args(self.arguments);
-        command.cwd(env!("CARGO_MANIFEST_DIR"));
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        command.cwd(folder.path()); // keys write files where the program runs
         for variable in
             ["LC_ALL", "LC_CTYPE", "NO_COLOR", "COLORTERM", "SSH_CONNECTION", "RUST_BACKTRACE", "LINES", "COLUMNS"]
         {
@@ -100,6 +103,7 @@ impl Start<'_> {
             answers: self.answers,
             searched: 0,
             output: Vec::new(),
+            _folder: folder,
         }
     }
 }

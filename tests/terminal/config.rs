@@ -70,7 +70,9 @@ fn pictures_are_as_few_as_the_configuration_says() {
 
 #[test]
 fn a_bad_configuration_never_touches_the_screen() {
-    let start = carom(&["--config", "Cargo.toml"]);
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+    let arguments = ["--config", manifest];
+    let start = carom(&arguments);
     let mut pty = Start { environment: &[("NO_COLOR", "1")], ..start }.run();
     assert_eq!(pty.exit(), 2);
     assert!(!pty.output.contains(&0x1b), "{}", pty.text());
