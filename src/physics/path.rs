@@ -42,7 +42,14 @@ impl Path {
     /// Bounds of a coordinate along `axis` (any vector) over [from, to] (s).
     pub(super) fn reach(&self, axis: DVec3, from: f64, to: f64) -> (f64, f64) {
         let (v, a) = (axis.dot(self.v), axis.dot(self.a));
-        let (start, end) = (axis.dot(self.at(from)), axis.dot(self.at(to)));
+        let start = axis.dot(self.at(from));
+        // for ever: 0 · ∞ is no place
+        let end = match to.is_finite() {
+            true => axis.dot(self.at(to)),
+            false if a != 0.0 => a * f64::INFINITY,
+            false if v != 0.0 => v * f64::INFINITY,
+            false => start,
+        };
         let apex = -v / a;
         let turn = if apex > from && apex < to { axis.dot(self.at(apex)) } else { start };
         (start.min(end).min(turn), start.max(end).max(turn))

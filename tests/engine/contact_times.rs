@@ -187,3 +187,26 @@ fn spheres_meet_each_other_when_sampling_says_so() {
     assert!(wrong.is_empty(), "{} wrong, e.g.\n{}", wrong.len(), wrong[..wrong.len().min(3)].join("\n"));
     assert!(met.iter().all(|&n| n > 1000), "{met:?}");
 }
+
+/// What falls from rest across an edge, sliding along it or not, has a polynomial without odd powers.
+#[test]
+fn a_fall_from_rest_onto_an_edge_is_found() {
+    for seed in 0..20_000_u64 {
+        let mut random = Random(seed);
+        let (r, g) = (random.between(0.05, 0.5), 9.8);
+        let center = random.vector() * 5.0;
+        let (high, deep) = (random.between(0.05, 0.5), random.between(0.5, 2.0));
+        let plate = Parallelogram { center, s1: DVec3::Y * high, s2: DVec3::Z * deep };
+        let aside = random.between(-0.99, 0.99) * r;
+        let above = random.between(1.0, 3.0) * r + (r * r - aside * aside).sqrt();
+        let top = center + DVec3::Y * (0.5 * high);
+        let fall = (2.0 * (above - (r * r - aside * aside).sqrt()) / g).sqrt();
+        let z = random.between(-0.4, 0.4) * deep;
+        let speed = random.pick(&[0.0, 1.0]) * random.between(-0.05, 0.05) * deep / fall;
+        let x = top + DVec3::new(aside, above, z);
+        let path = Path { x, v: DVec3::Z * speed, a: DVec3::NEG_Y * g };
+        let before = random.pick(&[f64::INFINITY, 10.0, 1.001 * fall]);
+        let found = sphere_wall(&path, r, &Face::new(plate), before);
+        assert!(found.is_some_and(|t| (t - fall).abs() <= 1e-9 * fall), "seed {seed}: {found:?} instead of {fall}");
+    }
+}
