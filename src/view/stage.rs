@@ -185,23 +185,29 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     let (faint, heading) = (sheet.palette.faint(), sheet.palette.heading());
     let used = sheet.put_all(label, &[(" ", faint), (name, heading), (" ", faint), (axes, faint)]);
     let zoom = sane_zoom(view.screen.view_settings.zoom);
-    let mut extra = String::new();
+    let (mut extra, mut arrows) = (String::new(), String::new());
     if zoom != 1.0 {
         extra += &format!("  {}{}", sheet.glyphs.times, format::setting(zoom));
     }
     if let Some(seconds) = overlays::arrow_seconds(view).filter(|_| view.screen.view_settings.overlays.velocities) {
-        extra += &format!("  {} {} s", sheet.glyphs.arrow, format::setting(seconds));
+        arrows += &format!("  {} {} s", sheet.glyphs.arrow, format::setting(seconds));
     }
     for quantity in [Quantity::Impulse, Quantity::Force] {
-        extra += &quantity.label(view).unwrap_or_default();
+        arrows += &quantity.label(view).unwrap_or_default();
     }
     let scale = scale_bar(view, sheet) + " ";
     let room = usize::from(label.width - used);
     let rest = Rect { x: label.x + used, width: label.width - used, ..label };
-    if sheet::width(&extra) + sheet::width(&scale) + 2 <= room {
-        sheet.put(rest, &extra, faint);
+    let fits = |text: &str| sheet::width(text) + sheet::width(&scale) + 2 <= room;
+    let all = extra + &arrows;
+    if fits(&all) {
+        sheet.put(rest, &all, faint);
+    } else if !arrows.is_empty() {
+        // arrows without a scale tell nothing: it comes before the bar, which can be read off the room
+        let own = if fits(&arrows) { room - sheet::width(&scale) } else { room };
+        sheet.put(Rect { width: own as u16, ..rest }, &arrows, faint);
     }
-    if sheet::width(&scale) + 2 <= room {
+    if fits(&arrows) {
         sheet.put_right(rest, &scale, faint);
     }
 }

@@ -86,6 +86,20 @@ fn a_support_force_is_the_impulse_of_the_frame_over_its_length() {
     assert!((force - 4.8).abs() < 1e-12, "{force}");
 }
 
+/// Two views beside each other leave 39 columns: the bar of lengths goes before the scales of what is drawn.
+#[test]
+fn arrows_are_never_without_their_scale() {
+    let mut scene = struck(Class::Rest, 0.098);
+    scene.snapshot.v = vec![DVec3::X];
+    for zoom in [1.0, 1.5] {
+        scene.view_settings.zoom = zoom;
+        scene.view_settings.overlays = Overlays { forces: true, velocities: true, ..Overlays::default() };
+        let shown = text(&scene, 80, 24);
+        let label = shown.lines().nth(1).expect("the views' labels");
+        assert!(label.contains("N/m") && label.contains(" s "), "{zoom}\n{shown}");
+    }
+}
+
 #[test]
 fn the_trail_is_that_of_the_last_frames_forwards_and_backwards() {
     for keys in ["", "m", "mm", "mmm"] {
