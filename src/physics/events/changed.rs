@@ -1,5 +1,7 @@
 //! What an event has done, as far as the schedule must know.
 
+use crate::physics::contact::{Key, Kind};
+
 /// The spheres whose motion an event has changed, by index: the loop predicts them in this order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Changed {
@@ -14,6 +16,11 @@ pub(crate) enum Changed {
 }
 
 impl Changed {
+    /// The spheres of a contact.
+    pub(crate) fn of((kind, a, b): Key) -> Changed {
+        if kind == Kind::Pair { Changed::Pair([a, b]) } else { Changed::Sphere(a) }
+    }
+
     /// The spheres.
     pub(crate) fn spheres(&self) -> &[usize] {
         match self {

@@ -28,9 +28,9 @@ pub(super) fn note(log: &mut Log, row: Contact) {
 impl Mechanics {
     /// Two bodies touch while they approach, or are pressed together: an impact, or a rest that may begin.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
-        let struck = self.interrupt_series(model, log, key);
+        let interrupted = self.interrupt_series(model, log, key);
         match self.met(model, log, key)? {
-            Changed::Nothing => Ok(struck),
+            Changed::Nothing if interrupted => Ok(Changed::of(key)),
             changed => Ok(changed),
         }
     }
@@ -106,8 +106,8 @@ impl Mechanics {
 
     /// The bodies of a contact have got new velocities: rests that this breaks end, and what others planned with them is
     /// stale.
-    fn break_rests(&mut self, model: &Model, log: &mut Log, (kind, a, b): Key) -> Result<Changed, Stall> {
-        let changed = if kind == Kind::Pair { Changed::Pair([a, b]) } else { Changed::Sphere(a) };
+    fn break_rests(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
+        let changed = Changed::of(key);
         for &i in changed.spheres() {
             self.trajectories.check_range(i)?;
             self.trajectories.mark_changed(i);

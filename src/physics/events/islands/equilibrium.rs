@@ -90,9 +90,9 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
 
 /// Stops what approaches, by impulses (N s, by contact); whether they were found to rounding.
 fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack: &[f64]) -> (Vec<f64>, bool) {
-    let none = vec![0.0; resting.len()];
+    let none = || vec![0.0; resting.len()];
     if nothing_approaches(resting, all.velocity) {
-        return (none, true);
+        return (none(), true);
     }
     let stopped = velocities(all, resting);
     stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
@@ -104,7 +104,7 @@ fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack:
     let squeezing = resting.iter().zip(&stopped.multipliers).filter(|(_, impulse)| **impulse > 0.0);
     let v = restore(all.inverse_mass, all.velocity, &rows(squeezing.map(|(contact, _)| contact)));
     bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
-    (none, true)
+    (none(), true)
 }
 
 /// Whether nothing approaches faster than rounding makes what moves along a wall seem to.

@@ -56,10 +56,13 @@ impl Mechanics {
     }
 
     /// Bounces of a sphere on a wall that were summed up are told one by one from now on where something else strikes it: it
-    /// has the velocity then that they have left it, and not their mean one.
-    pub(crate) fn interrupt_series(&mut self, model: &Model, log: &mut Log, struck: Key) -> Changed {
-        let mut changed = Changed::Nothing;
-        for i in [Some(struck.1), (struck.0 == Kind::Pair).then_some(struck.2)].into_iter().flatten() {
+    /// has the velocity then that they have left it, and not their mean one. Whether there were any.
+    pub(crate) fn interrupt_series(&mut self, model: &Model, log: &mut Log, struck: Key) -> bool {
+        if self.rests.is_empty() || model.law.tangential == 1.0 {
+            return false; // only bounces that rub are summed up so
+        }
+        let mut interrupted = false;
+        for &i in Changed::of(struck).spheres() {
             for key in self.rests.of(i).to_vec() {
                 let held = self.rests.kept(key);
                 let Some(rub) = held.rub.filter(|_| key != struck && held.settles_at > self.trajectories.now) else {
@@ -73,16 +76,16 @@ impl Mechanics {
                 self.trajectories.rewrite(i, line.x, v);
                 self.trajectories.mark_changed(i);
                 self.rests.dirty.push(i);
-                changed = if struck.0 == Kind::Pair { Changed::Pair([struck.1, struck.2]) } else { Changed::Sphere(i) };
+                interrupted = true;
             }
         }
-        changed
+        interrupted
     }
 
     /// What no longer rests on anything is pulled as in flight from now on: what it meets at this instant asks how it is
     /// pressed, before any island is solved.
-    fn set_free(&mut self, model: &Model, (kind, a, b): Key) {
-        for i in [Some(a), (kind == Kind::Pair).then_some(b)].into_iter().flatten() {
+    fn set_free(&mut self, model: &Model, key: Key) {
+        for &i in Changed::of(key).spheres() {
             if self.rests.of[i].is_empty() {
                 self.advance(model, i);
                 self.trajectories.accelerate(i, model.acceleration(i));
