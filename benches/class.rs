@@ -9,7 +9,7 @@ use std::io::{Cursor, Read};
 use std::time::Instant;
 
 use carom::export::{Columns, States};
-use carom::marks::{Exam, side_by_side};
+use carom::marks::{Exam, mark_all};
 use carom::physics::{Method, Settings, Simulation};
 use carom::scene::{self, Scene};
 
@@ -32,7 +32,7 @@ fn main() {
         let exam = Exam::new(&scene, scene.duration, Some(1e-3), &|| true).expect("it is not interrupted");
         let certificate = start.elapsed().as_secs_f64();
         let start = Instant::now();
-        let marked = side_by_side(CLASS, cores, |index| {
+        let marked = mark_all(CLASS, cores, |index| {
             let reader: Box<dyn Read + Send> = Box::new(Cursor::new(files[index % DIFFERENT].clone()));
             let source = States::new(reader, &Columns::default(), exam.spheres()).expect("rows");
             (index.to_string(), exam.mark(source, &|| true))

@@ -33,7 +33,7 @@ pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure>
     let interrupted = || signals.check().err().unwrap_or(Failure::Told);
     let exam = Exam::new(&opened.scene, until, arguments.tolerance, &go_on).ok_or_else(interrupted)?;
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let marked = marks::side_by_side(arguments.files.len(), jobs, |index| {
+    let marked = marks::mark_all(arguments.files.len(), jobs, |index| {
         let word = &arguments.files[index];
         (printable::name(word), mark(&exam, word, arguments, &go_on))
     });
@@ -113,12 +113,6 @@ impl Files {
         if !arguments.dt.is_empty() {
             text = text + "\n" + &marks::order(&arguments.dt, marked);
         }
-        if self.report_on_stdout {
-            let mut out = Output::stdout();
-            out.write_all(text.as_bytes())?;
-            return out.finish();
-        }
-        let _ = io::stderr().write_all(text.as_bytes()); // if nobody can read it, the results still stand
-        Ok(())
+        Output::report(&text, self.report_on_stdout)
     }
 }

@@ -140,13 +140,7 @@ impl Files {
             rows.iter().try_for_each(|row| table.write(row))?;
             table.finish()?.finish()?;
         }
-        if self.report_on_stdout {
-            let mut out = Output::stdout();
-            out.write_all(text.as_bytes())?;
-            return out.finish();
-        }
-        let _ = io::stderr().write_all(text.as_bytes()); // if nobody can read it, the results still stand
-        Ok(())
+        Output::report(text, self.report_on_stdout)
     }
 
     fn write(self, rows: &[TradeRow], arguments: &Measure, yardsticks: &[Yardstick]) -> Result<(), Failure> {
@@ -167,13 +161,7 @@ impl Files {
             svg.finish()?;
         }
         let text = measure::report(rows, allowed, yardsticks, axes);
-        if self.report_on_stdout {
-            let mut out = Output::stdout();
-            out.write_all(text.as_bytes())?;
-            return out.finish();
-        }
-        let _ = io::stderr().write_all(text.as_bytes()); // if nobody can read it, the results still stand
-        Ok(())
+        Output::report(&text, self.report_on_stdout)
     }
 }
 

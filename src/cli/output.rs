@@ -49,6 +49,20 @@ impl Output {
         Output { writer: BufWriter::new(Sink::Stdout(io::stdout())), name: "standard output".into() }
     }
 
+    /// Writes a report on standard output, or on standard error where results have the former for themselves.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub(super) fn report(text: &str, on_stdout: bool) -> Result<(), Failure> {
+        if on_stdout {
+            let mut out = Output::stdout();
+            out.write_all(text.as_bytes())?;
+            return out.finish();
+        }
+        let _ = io::stderr().write_all(text.as_bytes()); // where it cannot be read, the results still stand
+        Ok(())
+    }
+
     /// Writes out what is buffered and puts the file in its place.
     ///
     /// # Errors

@@ -31,7 +31,7 @@ mod series;
 mod standard;
 mod truth;
 
-pub use class::{Marked, side_by_side};
+pub use class::{Marked, mark_all};
 pub use exam::{Exam, Impacts, Mark, NoMark};
 pub use figure::figure;
 pub use ledger::Ledger;

@@ -6,7 +6,7 @@ use super::crowd::{Crowd, FIGURES, Mean, crowd_run};
 use super::interrupt::GoOn;
 use super::ladder::Rung;
 use super::report::setting;
-use super::sweep::side_by_side;
+use super::side_by_side::side_by_side;
 use crate::export::CrowdRow;
 use crate::format;
 use crate::scene::{Method, Scene};

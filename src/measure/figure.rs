@@ -57,8 +57,8 @@ impl Frame {
     }
 }
 
-/// The figure of all rows, a panel for each scene. `allowed` methods compete on the front; `about` tells the machine and the
-/// command, for who reads the file.
+/// The figure of all rows, a panel for each scene. `allowed` methods compete on the front; `about`, the machine and the
+/// command, becomes the figure's description.
 pub fn figure(rows: &[TradeRow], allowed: &[Method], axes: Axes, about: &str) -> String {
     let panels: Vec<&[TradeRow]> = rows.chunk_by(|a, b| a.scene == b.scene).collect();
     let height = PANEL * panels.len().max(1) as f64;

@@ -44,6 +44,7 @@
 //! | `clock`, `cost` | processor time; the only clocks |
 //! | `work` | counted work, the same on every machine |
 //! | `ladder`, `trade` | which settings are tried, and a row of each |
+//! | `side_by_side` | many tasks at a time, in order |
 //! | `sweep`, `shard` | many settings side by side, or in parts that are merged |
 //! | `front` | which settings are worth their time |
 //! | `axes` | which error over which cost |
@@ -76,6 +77,7 @@ mod report;
 mod sample;
 mod scale;
 mod shard;
+mod side_by_side;
 mod slices;
 mod sweep;
 mod trade;
@@ -100,6 +102,7 @@ pub use reference::{Horizon, OwnError, Reference};
 pub use report::report;
 pub use sample::{Budget, EndReason, Impact, Instants, Sampled, sample};
 pub use shard::{MergeError, NoShard, Placed, Shard, merge};
+pub(crate) use side_by_side::side_by_side;
 pub use slices::Slices;
 pub use sweep::{Advance, Measured, Sweep, SweepError, Yardstick};
 pub use trade::{ASKED, Errors, Subject, errors};

@@ -2,13 +2,12 @@
 
 use std::fmt;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use super::cost::cost;
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
 use super::shard::Shard;
+use super::side_by_side::side_by_side;
 use super::trade::{ASKED, Setting, Subject};
 use crate::export::TradeRow;
 use crate::scene::{Method, Scene};
@@ -199,49 +198,4 @@ impl Progress {
 
 fn lock(setting: &Mutex<Setting>) -> std::sync::MutexGuard<'_, Setting> {
     setting.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
-}
-
-/// The results of tasks 0 to `count` that could be done, by at most so many threads, each taking the next task.
-pub(super) fn side_by_side<T: Send>(
-    count: usize,
-    jobs: usize,
-    task: impl Fn(usize) -> Result<T, Interrupted> + Sync,
-) -> Vec<Option<T>> {
-    let next = AtomicUsize::new(0);
-    let results: Mutex<Vec<Option<T>>> = Mutex::new((0..count).map(|_| None).collect());
-    thread::scope(|scope| {
-        for _ in 0..jobs.clamp(1, count.max(1)) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= count {
-                        return;
-                    }
-                    let Ok(result) = task(index) else { return };
-                    results.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(result);
-                }
-            });
-        }
-    });
-    results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_task_is_done_once_whatever_the_number_of_threads() {
-        for jobs in [0, 1, 3, 100] {
-            let done = side_by_side(20, jobs, |index| Ok(index * index));
-            assert!(done.into_iter().enumerate().all(|(index, result)| result == Some(index * index)));
-        }
-        assert_eq!(side_by_side(0, 4, Ok).len(), 0);
-    }
-
-    #[test]
-    fn an_interrupted_task_leaves_the_others_results() {
-        let done = side_by_side(5, 1, |index| if index < 3 { Ok(index) } else { Err(Interrupted) });
-        assert_eq!(done, [Some(0), Some(1), Some(2), None, None]);
-    }
 }

@@ -40,7 +40,7 @@ fn empty(scene: &Scene) -> Option<String> {
 
 fn outside_view(scene: &Scene) -> Option<String> {
     let unseen = |sphere: &Sphere| !scene.view.touches(&Bounds::around(sphere.x, sphere.radius));
-    counted(scene, unseen).map(|who| format!("{who} outside the view box and can't be seen at first"))
+    counted(scene, unseen).map(|spheres| format!("{spheres} outside the view box and can't be seen at first"))
 }
 
 fn outside_walls(scene: &Scene) -> Option<String> {
@@ -48,7 +48,7 @@ fn outside_walls(scene: &Scene) -> Option<String> {
     // Flat boxes (a single floor) enclose nothing.
     let closed = scene.walls.len() >= 6 && walls.size().min_element() > 0.0;
     let outside = |sphere: &Sphere| closed && !walls.contains(sphere.x);
-    counted(scene, outside).map(|who| format!("{who} outside the box of all walls"))
+    counted(scene, outside).map(|spheres| format!("{spheres} outside the box of all walls"))
 }
 
 /// What must be said of a run to `until` (s) that will not end in any time a user waits.
@@ -71,16 +71,16 @@ pub fn endless(scene: &Scene, Settings { method, dt, .. }: Settings, until: f64)
 
 fn tunnels(scene: &Scene, Settings { method, dt, .. }: Settings) -> Option<String> {
     let jumps = |sphere: &Sphere| method == Method::Paper && sphere.v.length() * dt > 2.0 * sphere.radius;
-    counted(scene, jumps).map(|who| {
+    counted(scene, jumps).map(|spheres| {
         let dt = rounded(dt);
-        format!("{who} so fast that it crosses more than its diameter in a step of {dt} s: `paper` may miss its contacts; lower dt")
+        format!("{spheres} so fast that it crosses more than its diameter in a step of {dt} s: `paper` may miss its contacts; lower dt")
     })
 }
 
 fn rounding(scene: &Scene) -> Option<String> {
     let lost = |sphere: &Sphere| sphere.x.abs().max_element() * f64::EPSILON * RESOLVED > sphere.radius;
     counted(scene, lost)
-        .map(|who| format!("{who} so far from the origin for its radius that rounding moves it visibly"))
+        .map(|spheres| format!("{spheres} so far from the origin for its radius that rounding moves it visibly"))
 }
 
 /// The spheres for which something holds, as the beginning of a sentence.
