@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::impact_law::{normal_velocity, pair_normal_velocity};
 use super::path::Path;
-use super::wall::{Face, Touch, curvature, edge_direction, touch};
+use super::wall::{Face, Part, Touch, curvature, edge_direction, touch};
 use super::wall_parts::part_ahead;
 use crate::roots::{bound, bracketed, monotone, quadratic_fall, value};
 
@@ -88,18 +88,20 @@ struct Approach {
 }
 
 impl Approach {
-    /// Whether it turns into a retreat by itself before the gap has shrunk by what rounding leaves of coordinates: then it
-    /// is none. Where a sphere is pressed against one body and slides past another, rounding alone would otherwise drive it
-    /// into the one and the other in turn, for ever at one instant. `bends` must still be positive when v_n reaches 0.
+    /// Whether rounding has made an approach that is none. Where a sphere is pressed against one body and slides past
+    /// another, it would otherwise be driven into the one and the other in turn, for ever at one instant. An approach that
+    /// an impulse has made is none of rounding's, however shallow; that of places turns the normal.
     fn grazes(&self) -> bool {
-        let Approach { closing, bends, speed, acceleration, radius, size } = *self;
+        let rounding = f64::EPSILON * (4.0 * self.size / self.radius).max(64.0);
+        -self.closing <= rounding * self.speed && self.turns_within(GRAZE * self.size)
+    }
+
+    /// Whether it turns into a retreat by itself before the gap has shrunk by `room`, m. `bends` must still be positive when
+    /// v_n reaches 0.
+    fn turns_within(&self, room: f64) -> bool {
+        let Approach { closing, bends, speed, acceleration, radius, .. } = *self;
         let jerk = 3.0 * speed * (acceleration + speed * speed / radius) / radius;
-        // an approach that an impulse has made is none of rounding's, however shallow; that of places turns the normal
-        let rounding = f64::EPSILON * (4.0 * size / radius).max(64.0);
-        -closing <= rounding * speed
-            && bends > 0.0
-            && closing * closing <= 2.0 * bends * GRAZE * size
-            && -2.0 * jerk * closing <= bends * bends
+        bends > 0.0 && closing * closing <= 2.0 * bends * room && -2.0 * jerk * closing <= bends * bends
     }
 }
 
@@ -335,15 +337,21 @@ impl Search<'_> {
     /// Whether a touch at `t` (s) that approaches at v_n = `closing` (m/s) only grazes.
     fn grazes(&self, t: f64, at: &Touch, closing: f64) -> bool {
         let (x, v, a) = (self.path.at(t), self.path.velocity(t), self.path.a);
-        let size = x.abs().max_element().max(self.r);
+        // no impulse has made an approach that is still to come; over the end of a wall, towards the edge of the next, its gap
+        // is 0 to rounding, of all that it is found from, from √(2 r ulp) on, where v_n is not
+        let ahead = t > 0.0 && at.part != Part::Face;
+        let here = x.abs().max_element().max(self.r);
+        let size = if ahead { here.max(self.path.x.abs().max_element()).max(self.face.size()) } else { here };
         let most = a.length() + v.length_squared() / self.r;
-        if closing * closing > 2.0 * most * GRAZE * size {
+        let room = GRAZE * size + if ahead { at.gap.max(0.0) } else { 0.0 };
+        if closing * closing > 2.0 * most * room {
             return false;
         }
         // as in `approached`: over an edge a fast sphere leaves what it was pressed against
-        let ahead = part_ahead(self.face, x, v, a, self.r);
-        let bends = at.normal.dot(a) + curvature(self.face, ahead, at.normal, v, self.r);
-        Approach { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size }.grazes()
+        let part = part_ahead(self.face, x, v, a, self.r);
+        let bends = at.normal.dot(a) + curvature(self.face, part, at.normal, v, self.r);
+        let approach = Approach { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size };
+        if ahead { approach.turns_within(room) } else { approach.grazes() }
     }
 
     /// What rounding may leave of a gap that is meant to be 0, m: some hundred ulp of the coordinates and the path.

@@ -36,6 +36,12 @@ impl Face {
         (p - self.shape.center).dot(self.normal)
     }
 
+    /// What rounding of its corners is relative to, m: no coordinate of theirs is larger.
+    pub fn size(&self) -> f64 {
+        let Parallelogram { center, s1, s2 } = self.shape;
+        (center.abs() + 0.5 * (s1.abs() + s2.abs())).max_element()
+    }
+
     /// What the distance of `p` (m) from the wall is at least, m: that from the strips between its opposite edges.
     #[inline]
     pub fn at_least(&self, p: DVec3) -> f64 {

@@ -210,3 +210,26 @@ fn a_fall_from_rest_onto_an_edge_is_found() {
         assert!(found.is_some_and(|t| (t - fall).abs() <= 1e-9 * fall), "seed {seed}: {found:?} instead of {fall}");
     }
 }
+
+/// A sphere slides over the edge of the wall that it touches; the next wall begins at that edge and leads down. Its gap comes
+/// to 0 there and nowhere else, so that nothing approaches, however rounding places the edge.
+#[test]
+fn a_slide_over_the_edge_where_the_next_wall_leads_down_is_no_approach() {
+    for seed in 0..20_000_u64 {
+        let mut random = Random(seed);
+        let along = random.vector().normalize();
+        let across = along.any_orthonormal_vector();
+        let up = across.cross(along);
+        let (r, edge) = (random.between(0.05, 0.6), random.vector() * 5.0);
+        let (long, slope) = (random.between(1.0, 8.0), random.between(0.01, 3.1));
+        let down = across * slope.cos() - up * slope.sin();
+        let s2 = down * random.between(0.1, 5.0);
+        let next = Parallelogram { center: edge + s2 * 0.5, s1: along * long, s2 };
+        let (speed, sideways) = (random.decade(-1.0, 1.0), random.between(-0.5, 0.5));
+        let way = random.between(0.01, 1.0);
+        let x = edge + up * r - (across + along * sideways) * way;
+        let path = Path { x, v: (across + along * sideways) * speed, a: DVec3::ZERO };
+        let found = sphere_wall(&path, r, &Face::new(next), f64::INFINITY);
+        assert_eq!(found, None, "seed {seed}: the edge is reached at {}", way / speed);
+    }
+}

@@ -52,6 +52,12 @@ impl ContactState {
         self.v_n.abs() <= CLOCK_ULPS * -self.a_n * clock_ulp
     }
 
+    /// Whether bodies that accelerate apart would stop their approach by themselves sooner than the clock can tell, of which
+    /// one ulp is `clock_ulp`, s.
+    pub(crate) fn turns_within_the_clock(&self, clock_ulp: f64) -> bool {
+        -self.v_n <= self.a_n * clock_ulp
+    }
+
     /// How high a hop may be (m) to be one of a series that is summed up: what coordinates resolve, at least, and out of
     /// an overlap, which hides the rest of the series.
     pub(crate) fn small_hop(&self) -> f64 {

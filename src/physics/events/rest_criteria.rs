@@ -35,6 +35,10 @@ impl Mechanics {
         if let Some(reason) = self.is_unresolved(model, contact) {
             return Verdict::Rest(reason);
         }
+        if contact.turns_within_the_clock(self.trajectories.clock_ulp()) {
+            // an impact that a rest beside it takes back would come again and again, softer, until nothing is left of it
+            return Verdict::Leave;
+        }
         match classify(contact.v_n, contact.a_n < 0.0, &model.law) {
             Class::Collide => {}
             Class::Rest => return Verdict::Rest(RestReason::Slow),

@@ -205,9 +205,9 @@ impl Settled {
         let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
         let mut holds: Vec<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
         let mut v = before.clone();
-        // of a lone sphere that nothing pulls what is left would add up for as long as it slides along its walls
-        let alone = |contact: &Resting| contact.b.is_none() && bodies[contact.a].applied == DVec3::ZERO;
-        let precision = if resting.iter().all(alone) { BRUSH } else { SUM };
+        // of what keeps its velocity what is left of it would add up for as long as it slides along its walls
+        let steady = !self.curved && self.a.iter().all(|a| *a == DVec3::ZERO);
+        let precision = |contact: &Resting| if steady && contact.b.is_none() { BRUSH } else { SUM };
         loop {
             let rows = rows(resting.iter().zip(&holds).filter(|(_, holds)| **holds).map(|(contact, _)| contact));
             if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
@@ -215,7 +215,7 @@ impl Settled {
             }
             let approaches = |index: usize| {
                 let contact = &resting[index];
-                let noise = precision * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
+                let noise = precision(contact) * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
                 let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
                 may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
             };
