@@ -138,7 +138,9 @@ impl Trajectories {
     pub(crate) fn v_n(&self, model: &Model, key: Key) -> f64 {
         let (kind, a, b) = key;
         if kind == Kind::Wall {
-            return self.contact_state(model, key).v_n;
+            let path = self.path(a, self.now);
+            let normal = touch(&model.faces[b], path.x, self.trajectory(a).r).normal;
+            return normal_velocity(path.v, DVec3::ZERO, normal);
         }
         let (one, two) = (self.trajectory(a), self.trajectory(b));
         pair_normal_velocity(one.x - two.x, one.v - two.v)
