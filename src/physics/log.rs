@@ -27,6 +27,7 @@ pub(crate) struct Log {
 
 impl Log {
     /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be asked to).
+    #[inline(always)]
     pub(crate) fn event(&mut self, row: Contact) {
         match row.class {
             Class::Collide => self.tallies.impacts += 1,

@@ -66,7 +66,7 @@ pub const LARGEST: f64 = 1e75;
 /// The one place where motion that is no number, or runs away beyond [`LARGEST`], is found and ends a run: nothing, or the
 /// sphere, the time (s) and the `cause`, which goes on after a colon. The door asks it of all spheres before a method
 /// begins; each method asks it where it has changed a motion.
-#[inline]
+#[inline(always)]
 pub(super) fn runaway(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Option<Stall> {
     let held = |u: DVec3| (u.x.abs() <= LARGEST) & (u.y.abs() <= LARGEST) & (u.z.abs() <= LARGEST);
     if held(x) & held(v) { None } else { Some(ran_away(sphere, t, [x, v], cause)) }

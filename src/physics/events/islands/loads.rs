@@ -49,7 +49,16 @@ impl Rests {
 
     /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
     /// given in the frame.
+    #[inline]
     pub(crate) fn list(&mut self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
+        // every impact of a gas ends a frame, and nothing rests in it
+        if !self.held.is_empty() {
+            self.list_held(model, trajectories, log, end);
+        }
+        self.begin_frame(end);
+    }
+
+    fn list_held(&self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
         let met = log.contacts.len();
         for (&key, held) in self.held.iter().filter(|(_, held)| held.announced) {
             let impulse = Load { since: held.load.since.max(self.frame_start), ..held.load }.given(end);
@@ -62,6 +71,5 @@ impl Rests {
                 log.contacts.push(Contact { approach_speed: 0.0, ..row });
             }
         }
-        self.begin_frame(end);
     }
 }
