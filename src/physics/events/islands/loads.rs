@@ -2,13 +2,10 @@
 
 use super::resting::{Load, RestingContact, Rests};
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::events::rounding::APART;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-
-/// Gap, in radii, from which on a contact that carries nothing is not told to rest: idle ones open up to 1e-6 of the
-/// accelerations before their island is solved again.
-const APART: f64 = 1e-10;
 
 impl Rests {
     /// A frame begins at `time`, s.
