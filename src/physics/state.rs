@@ -94,6 +94,14 @@ pub struct Stall {
     pub reason: String,
 }
 
+impl Stall {
+    /// At `time` (s) the clock is so far on that a step of `dt` (s) rounds to none.
+    pub(super) fn step_too_small(time: f64, dt: f64) -> Stall {
+        let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
+        Stall { time, kind: StallKind::StepTooSmall, reason }
+    }
+}
+
 /// The kinds of stall. Each displays as the word of `stall=…`, e.g. `resting-contact`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StallKind {
