@@ -75,7 +75,7 @@ fn unknown(name: &str) -> String {
 ///
 /// # Errors
 /// What the file is instead, how large, or why it cannot be read.
-pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
+pub(crate) fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
     contents_within(path, wanted, LARGEST_FILE)
 }
 
