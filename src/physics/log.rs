@@ -4,7 +4,7 @@ use super::approach::Approach;
 use super::contact::{Class, Contact, Key, Probe};
 use super::state::Tallies;
 
-/// Filled by the method, read through the door.
+/// Filled by the method; read through [`Simulation`](crate::physics::Simulation).
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Log {
     /// Every contact of the last frame, in the order in which they were handled.
