@@ -114,7 +114,7 @@ impl EventList {
     fn retype(&mut self, typed: String) {
         match EventFilter::read(&typed) {
             Ok(filter) => (self.filter, self.wrong) = (filter, None),
-            Err(said) => self.wrong = Some(said),
+            Err(unknown) => self.wrong = Some(unknown.to_string()),
         }
         self.typed = typed;
     }

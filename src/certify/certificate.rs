@@ -47,7 +47,8 @@ pub fn certify(scene: &Scene, until: f64, go_on: &dyn Fn() -> bool) -> Option<Ce
     certify_within(scene, until, MOST_LOOKS, go_on)
 }
 
-/// The same with at most so many looks at pairs of bodies, some 30 ns each.
+/// Runs a scene by `exact` up to `until` (s) and certifies what it can with at most so many looks at pairs of bodies, some
+/// 30 ns each; nothing if `go_on`, asked every few milliseconds, says no.
 pub fn certify_within(scene: &Scene, until: f64, looks: u64, go_on: &dyn Fn() -> bool) -> Option<Certificate> {
     let (found, at_its_end) = pursue(scene, (until, looks), go_on)?;
     if at_its_end {

@@ -28,7 +28,7 @@ impl Course {
         self.v + self.a * (t - self.t)
     }
 
-    /// The same motion told from `t` (s) on.
+    /// This motion with `t` (s) as its origin of time.
     pub(super) fn from(&self, t: Double) -> Course {
         Course { t, x: self.at(t), v: self.velocity(t), a: self.a }
     }

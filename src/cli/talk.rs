@@ -304,7 +304,7 @@ impl Talk {
                     writeln!(self.out, "Nothing of this has happened.")?;
                 }
             }
-            Err(said) => writeln!(self.out, "{}", printable::escaped(&said))?,
+            Err(unknown) => writeln!(self.out, "{}", printable::escaped(&unknown.to_string()))?,
         }
         Ok(self.out.flush()?)
     }

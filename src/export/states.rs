@@ -4,6 +4,7 @@ use std::io::{self, BufRead, BufReader, Read};
 
 use glam::DVec3;
 
+use super::columns::{COLUMNS, Columns};
 use super::rows::StateRow;
 use super::table::Row;
 use super::trade::{CELL, ReadError, explain};
@@ -12,43 +13,8 @@ use crate::printable;
 /// Longest line that is read, bytes: a file without line ends must not fill the memory.
 const LINE: usize = 1 << 16;
 
-/// How many columns there are: time, sphere, three of place, three of velocity.
-const COLUMNS: usize = 8;
-
 /// What stands between two cells: the first of these that comes most often in the first line.
 const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
-
-/// What a file calls the columns `time,sphere,x,y,z,vx,vy,vz`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Columns([String; COLUMNS]);
-
-impl Default for Columns {
-    fn default() -> Columns {
-        Columns(std::array::from_fn(|k| StateRow::COLUMNS[k].into()))
-    }
-}
-
-impl Columns {
-    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours.
-    ///
-    /// # Errors
-    /// A part without `=`, a name that is none of ours, one of ours named twice.
-    pub fn parse(text: &str) -> Result<Columns, String> {
-        let (mut columns, mut named) = (Columns::default(), [false; COLUMNS]);
-        for part in text.split(',') {
-            let pair = part.split_once('=').map(|(theirs, ours)| (theirs.trim(), ours.trim()));
-            let (theirs, ours) =
-                pair.filter(|pair| !pair.0.is_empty()).ok_or("must be THEIRS=OURS, such as t=time,px=x")?;
-            let k = StateRow::COLUMNS.iter().position(|name| *name == ours);
-            let k = k.ok_or_else(|| format!("{ours:?} is none of {}", StateRow::COLUMNS.join(",")))?;
-            if std::mem::replace(&mut named[k], true) {
-                return Err(format!("{ours:?} is named twice"));
-            }
-            columns.0[k] = theirs.into();
-        }
-        Ok(columns)
-    }
-}
 
 /// All spheres at one time, as a file has them.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -382,12 +348,5 @@ mod tests {
         let mut states = States::new(late, &Columns::default(), 1).expect("a first row");
         let error = states.moment().expect_err("no line end").to_string();
         assert!(error.starts_with("3: a line of more"), "{error}");
-    }
-
-    #[test]
-    fn a_mapping_names_each_of_our_columns_once() {
-        for (text, word) in [("t", "THEIRS=OURS"), ("=time", "THEIRS"), ("t=when", "\"when\""), ("a=x,b=x", "twice")] {
-            assert!(Columns::parse(text).expect_err(text).contains(word), "{text}");
-        }
     }
 }

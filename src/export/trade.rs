@@ -122,7 +122,7 @@ pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, ReadErr
 pub struct ReadError(pub(super) String);
 
 impl ReadError {
-    /// The same, of the file of this name.
+    /// This refusal, with the name of the file before it.
     pub fn of(self, name: &str) -> ReadError {
         ReadError(format!(" {name}:{}", self.0))
     }

@@ -46,7 +46,7 @@ pub struct Mark {
     pub compared: f64,
     /// Largest distance of a sphere from its place, m; when, s; which sphere.
     pub error: (f64, f64, usize),
-    /// The same over time.
+    /// The largest distance of a sphere from its place, m, over time, s.
     pub series: Series,
     /// Where the other trajectory has no row: how far its places are uncertain, m; 0 against `exact`.
     pub interpolation: f64,

@@ -14,7 +14,7 @@ pub struct Fit {
 /// Student's t for 95 %, by degrees of freedom from 1 (Abramowitz and Stegun, table 26.10).
 const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
 
-/// The same for more.
+/// Student's t for 95 % and more degrees of freedom than [`STUDENT`] lists: that of the normal distribution.
 const NORMAL: f64 = 1.96;
 
 /// The least-squares line through log(error) over log(knob); values that are not above 0 and finite are left out. None of fewer than

@@ -97,12 +97,12 @@ impl Sweep {
         }
     }
 
-    /// The same, with each setting given up after so much processor time (s), and judged up to there.
+    /// This sweep, with each setting given up after so much processor time (s), and judged up to there.
     pub fn with_timeout(self, timeout: f64) -> Sweep {
         Sweep { timeout, ..self }
     }
 
-    /// The same, with horizons where the certified error of a reference leaves this, m.
+    /// This sweep, with horizons where the certified error of a reference leaves `asked`, m.
     pub fn asking(self, asked: f64) -> Sweep {
         Sweep { asked, ..self }
     }

@@ -69,7 +69,7 @@ pub fn errors(
     errors_within(&mut Simulation::new(scene, settings), reference, (limit, budget), go_on)
 }
 
-/// The same of a simulation at t = 0, within a budget.
+/// The errors of a simulation at t = 0 against its reference, within a budget of work.
 ///
 /// # Errors
 /// If `go_on` returns false.
@@ -131,7 +131,7 @@ impl Subject {
         Subject::asking(key, scene, ASKED, go_on)
     }
 
-    /// The same, with the horizon where the certified error of the reference leaves what is `asked`, m.
+    /// The reference run to the scene's duration, with the horizon where its certified error leaves what is `asked`, m.
     ///
     /// # Errors
     /// If `go_on` returns false.

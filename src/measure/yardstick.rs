@@ -39,8 +39,8 @@ impl Reference {
         Ok(reference)
     }
 
-    /// The same, certified as well: its horizon is where the certified error leaves what is `asked` (m), or where displaced runs
-    /// have parted, if that is later.
+    /// A certified reference up to `until` (s): its horizon is where the certified error leaves what is `asked` (m), or where
+    /// displaced runs have parted, if that is later.
     ///
     /// # Errors
     /// If `go_on` returns false.

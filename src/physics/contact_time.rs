@@ -183,8 +183,11 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Whether the wall is certainly too far away: tiles beside the one that a sphere bounces on, of which the closest point
-    /// takes longer to find.
+    /// takes longer to find. Asked where the plane is within reach, and so is the wall if the foot lies on it.
     fn is_out_of_reach(&self) -> bool {
+        if self.face.shades(self.path.x) {
+            return false;
+        }
         let room = self.face.at_least(self.path.x) - self.r;
         room > 0.0 && self.path.stays_within(room, self.before)
     }

@@ -4,7 +4,7 @@ use super::approach::Approach;
 use super::contact::{Class, Contact, Key, Probe};
 use super::state::Tallies;
 
-/// Filled by the method, read through the door.
+/// Filled by the method; read through [`Simulation`](crate::physics::Simulation).
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Log {
     /// Every contact of the last frame, in the order in which they were handled.
@@ -27,6 +27,7 @@ pub(crate) struct Log {
 
 impl Log {
     /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be asked to).
+    #[inline(always)]
     pub(crate) fn event(&mut self, row: Contact) {
         match row.class {
             Class::Collide => self.tallies.impacts += 1,

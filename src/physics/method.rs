@@ -8,6 +8,10 @@ use super::log::Log;
 use super::model::{Method, Model, Settings};
 use super::state::{Stall, State};
 
+/// The largest tolerance of `paper` and `swept`, dimensionless; larger ones count as this one: degree 1 is the centre on the
+/// plane, and a side must stay decided.
+pub(super) const LARGEST_TOLERANCE: f64 = 0.5;
+
 /// How far one call of [`Simulation::advance`](crate::physics::Simulation::advance) should go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Until {

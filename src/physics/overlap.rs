@@ -152,6 +152,9 @@ enum Stage {
 /// Spheres or cells worked on between two looks at the budget.
 pub const CHUNK: usize = 4096;
 
+/// Why there are cells.
+const CELLS: &str = "a finder for a model whose pairs are found by cells has cells";
+
 /// By how much radii grow for the coarse tests at load: more than [`touching`] allows up to 5e8 radii from the origin.
 const LOAD_GROWTH: f64 = 1.0 + 1e-6;
 
@@ -260,7 +263,7 @@ impl Finder {
 
     fn near_pairs(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
         let growth = self.growth();
-        let Some(cells) = &mut self.cells else { return (true, 0) };
+        let cells = self.cells.as_mut().expect(CELLS);
         match self.stage {
             Stage::Open => {
                 cells.open();
@@ -276,16 +279,17 @@ impl Finder {
             }
             Stage::Measure(from) => {
                 let to = cells.len().min(from + CHUNK);
+                let last = to == cells.len();
                 let work = self.measure(model, x, from..to);
                 self.stage = Stage::Measure(to);
-                (self.cells.as_ref().is_none_or(|cells| to == cells.len()), work)
+                (last, work)
             }
         }
     }
 
     /// Measures the distances that begin in these cells; the work that took.
     fn measure(&mut self, model: &Model, x: &[DVec3], range: Range<usize>) -> u64 {
-        let Some(cells) = self.cells.take() else { return 0 };
+        let cells = self.cells.take().expect(CELLS);
         let work = range.len() as u64 / 4;
         let last = range.end == cells.len();
         let distances = cells.pairs(range, |a, b| {

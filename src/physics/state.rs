@@ -66,7 +66,7 @@ pub const LARGEST: f64 = 1e75;
 /// The one place where motion that is no number, or runs away beyond [`LARGEST`], is found and ends a run: nothing, or the
 /// sphere, the time (s) and the `cause`, which goes on after a colon. The door asks it of all spheres before a method
 /// begins; each method asks it where it has changed a motion.
-#[inline]
+#[inline(always)]
 pub(super) fn runaway(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Option<Stall> {
     let held = |u: DVec3| (u.x.abs() <= LARGEST) & (u.y.abs() <= LARGEST) & (u.z.abs() <= LARGEST);
     if held(x) & held(v) { None } else { Some(ran_away(sphere, t, [x, v], cause)) }
@@ -92,6 +92,14 @@ pub struct Stall {
     pub kind: StallKind,
     /// A full sentence for people: where, why, and what to try.
     pub reason: String,
+}
+
+impl Stall {
+    /// At `time` (s) the clock is so far on that a step of `dt` (s) rounds to none.
+    pub(super) fn step_too_small(time: f64, dt: f64) -> Stall {
+        let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
+        Stall { time, kind: StallKind::StepTooSmall, reason }
+    }
 }
 
 /// The kinds of stall. Each displays as the word of `stall=…`, e.g. `resting-contact`.

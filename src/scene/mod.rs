@@ -60,7 +60,7 @@ mod write;
 
 pub use error::Error;
 pub use locate::Position;
-pub use open::{Opened, contents, open, open_with_text};
+pub use open::{Opened, open, open_with_text};
 pub use parse::parse;
 pub use validated::{Color, ContactLaw, Draft, Method, Resume, Scene, Settings, Sphere, Wall};
 pub use warnings::{endless, warnings};
@@ -70,5 +70,5 @@ pub(crate) use {
     error::{Source, quote},
     locate::Step,
     notation::{Words, read},
-    open::{contents_within, not_text},
+    open::{contents, contents_within, not_text},
 };

@@ -75,11 +75,11 @@ fn unknown(name: &str) -> String {
 ///
 /// # Errors
 /// What the file is instead, how large, or why it cannot be read.
-pub fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
+pub(crate) fn contents(path: &Path, wanted: &str) -> Result<Vec<u8>, String> {
     contents_within(path, wanted, LARGEST_FILE)
 }
 
-/// The same of a file of `most` MiB at most.
+/// The bytes of an input file, which must be `wanted` (`a scene file`): a plain file of `most` MiB at most.
 ///
 /// # Errors
 /// What the file is instead, how large, or why it cannot be read.

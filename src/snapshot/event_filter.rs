@@ -1,5 +1,7 @@
 //! Which events of a list are wanted, as a user types it.
 
+use std::fmt;
+
 use super::event_log::Logged;
 use crate::physics::{Class, Kind};
 
@@ -17,13 +19,26 @@ pub struct EventFilter {
     wall: Option<Option<u32>>,
 }
 
+/// A word that a filter does not know. Displays as a sentence that says what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownWord(pub String);
+
+impl fmt::Display for UnknownWord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let UnknownWord(word) = self;
+        write!(f, "{word} is not allowed: a filter takes spheres (3, or 3 5), wall 0, collision, rest, release.")
+    }
+}
+
+impl std::error::Error for UnknownWord {}
+
 impl EventFilter {
     /// Reads words in any order: numbers of spheres, `wall` and its number, `collision`, `rest` and `release` or how they
     /// begin. Of several spheres each must take part; of several classes one is enough.
     ///
     /// # Errors
-    /// A sentence that names the first word that is none of these.
-    pub fn read(text: &str) -> Result<EventFilter, String> {
+    /// The first word that is none of these.
+    pub fn read(text: &str) -> Result<EventFilter, UnknownWord> {
         let mut filter = EventFilter::default();
         let mut words = text.split_whitespace().peekable();
         while let Some(word) = words.next() {
@@ -40,9 +55,7 @@ impl EventFilter {
             } else if let Ok(sphere) = word.strip_prefix('#').unwrap_or(word).parse() {
                 filter.spheres.push(sphere);
             } else {
-                return Err(format!(
-                    "{word} is not allowed: a filter takes spheres (3, or 3 5), wall 0, collision, rest, release."
-                ));
+                return Err(UnknownWord(word.into()));
             }
         }
         Ok(filter)
@@ -93,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_word_that_says_nothing_is_named() {
-        let error = EventFilter::read("3 bounce").expect_err("no such word");
+        let error = EventFilter::read("3 bounce").expect_err("no such word").to_string();
         assert!(error.starts_with("bounce is not allowed: a filter takes spheres"), "{error}");
     }
 }

@@ -24,7 +24,7 @@ mod ticks;
 mod trend;
 
 pub use ahead::Ahead;
-pub use event_filter::EventFilter;
+pub use event_filter::{EventFilter, UnknownWord};
 pub use event_log::{EventLog, Logged};
 pub use ghost::Ghost;
 pub use kept::Kept;

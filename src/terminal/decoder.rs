@@ -40,7 +40,7 @@ pub(super) struct Decoder {
     late: bool,
     /// What has come of the bytes so far; the reader takes it.
     pub(super) inputs: Vec<Input>,
-    /// What the terminal has answered; likewise.
+    /// What the terminal has answered; the reader takes it.
     pub(super) replies: Vec<Reply>,
 }
 

@@ -1,9 +1,8 @@
-//! Why contacts rest: each scene leaves one reason. Chatter and collapse need crowds: `tests/campaign`
-//! has them.
+//! Why contacts rest: each scene leaves one reason.
 
 use crate::support::{G, PAPER_LAW, go, scene, sphere, wall};
 use carom::physics::{Kind, Method, RestReason, Scene, Settings, Simulation};
-use carom::scene::{ContactLaw, Wall};
+use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 
 /// Impacts lose half of the approach speed, nothing along the wall, and nothing rests by being slow.
@@ -19,10 +18,28 @@ fn above(contact: ContactLaw, gap: f64, v: DVec3) -> Scene {
     scene(G, contact, vec![floor(DVec3::ZERO)], vec![sphere(DVec3::Y * (0.5 + gap), v, 0.5)])
 }
 
-fn reason(scene: &Scene, method: Method, until: f64, wall: usize) -> Option<RestReason> {
+/// A sphere of 0.5 m that lies on a floor at y = 0 below another one.
+fn stacked(contact: ContactLaw, gap: f64, v: DVec3) -> Scene {
+    let spheres = vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5), sphere(DVec3::Y * (1.5 + gap), v, 0.5)];
+    scene(G, contact, vec![floor(DVec3::ZERO)], spheres)
+}
+
+/// A ball of 1 kg that touches a wall at x = 0, and one of this mass (kg) that comes at it with 1 m/s from 1 m away.
+fn squeeze(mass: f64, e: f64, gravity: DVec3) -> Scene {
+    let law = ContactLaw { restitution: e, wall_restitution: e, ..HALF };
+    let heavy = Sphere { mass, ..sphere(DVec3::X * 2.5, DVec3::NEG_X, 0.5) };
+    let walls = vec![wall(DVec3::ZERO, DVec3::Y * 4.0, DVec3::Z * 4.0)];
+    scene(gravity, law, walls, vec![sphere(DVec3::X * 0.5, DVec3::ZERO, 0.5), heavy])
+}
+
+fn reason_of(scene: &Scene, method: Method, until: f64, key: (Kind, usize, usize)) -> Option<RestReason> {
     let mut run = Simulation::new(scene, Settings { method, dt: 0.01, tolerance: 1e-12 });
     go(&mut run, until);
-    run.rest_reason((Kind::Wall, 0, wall))
+    run.rest_reason(key)
+}
+
+fn reason(scene: &Scene, method: Method, until: f64, wall: usize) -> Option<RestReason> {
+    reason_of(scene, method, until, (Kind::Wall, 0, wall))
 }
 
 #[track_caller]
@@ -101,6 +118,48 @@ fn where_a_floor_bends_by_next_to_nothing_the_one_before_holds_the_sphere_down()
     assert_eq!(reason(&slides, Method::Exact, 0.6, 1), Some(RestReason::HeldDown));
     // `swept` looks for it within its tolerance, where it shares the point already
     assert_eq!(reason(&slides, Method::Swept, 0.6, 1), Some(RestReason::SharedPoint));
+}
+
+#[test]
+fn pairs_rest_for_the_reasons_that_walls_have() {
+    let slow = ContactLaw { rest_speed: 0.5, ..HALF };
+    let dead = ContactLaw { restitution: 0.0, ..HALF };
+    // The falls, and the speeds, of the tests above.
+    for (scene, expected) in [
+        (stacked(HALF, 0.0, DVec3::ZERO), RestReason::Touching),
+        (stacked(slow, 1e-3, DVec3::ZERO), RestReason::Slow),
+        (stacked(dead, 0.1, DVec3::ZERO), RestReason::Stopped),
+        (stacked(HALF, 0.1, DVec3::ZERO), RestReason::SeriesSummed),
+        (stacked(HALF, 0.0, DVec3::NEG_Y * 1e-18), RestReason::WithinClock),
+    ] {
+        assert_eq!(reason_of(&scene, Method::Exact, 1.0, (Kind::Pair, 0, 1)), Some(expected));
+    }
+    let there = DVec3::X * 1e6;
+    let spheres = [0.5, 1.6].map(|y| sphere(there + DVec3::Y * y, DVec3::ZERO, 0.5)).to_vec();
+    let far = scene(G, HALF, vec![floor(there)], spheres);
+    assert_eq!(reason_of(&far, Method::Exact, 1.0, (Kind::Pair, 0, 1)), Some(RestReason::WithinCoordinates));
+}
+
+#[test]
+fn a_squeeze_that_loses_too_much_rests_because_the_chain_collapses() {
+    // 1 − e far over 4 √(m/M): no number of impacts turns the heavy ball round, and all of them come at one instant.
+    for (mass, e) in [(1e4, 0.5), (1e6, 0.9)] {
+        for key in [(Kind::Wall, 0, 0), (Kind::Pair, 0, 1)] {
+            let found = reason_of(&squeeze(mass, e, DVec3::ZERO), Method::Exact, 2.0, key);
+            assert_eq!(found, Some(RestReason::Collapse), "{mass} kg, e = {e}: {key:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_under_one_that_presses_it_on_a_wall_chatters() {
+    // The same squeeze, pulled towards the wall: what the light ball loses the heavy one gives back.
+    for (mass, e) in [(1e4, 0.5), (1e6, 0.9)] {
+        for key in [(Kind::Wall, 0, 0), (Kind::Pair, 0, 1)] {
+            let found = reason_of(&squeeze(mass, e, DVec3::NEG_X), Method::Exact, 2.0, key);
+            assert_eq!(found, Some(RestReason::Chatter), "{mass} kg, e = {e}: {key:?}");
+        }
+    }
 }
 
 #[test]

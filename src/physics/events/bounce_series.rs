@@ -138,7 +138,7 @@ impl Bounces {
 mod tests {
     use super::*;
 
-    /// The same bounce by bounce, in order.
+    /// How a series ends, counted bounce by bounce in order.
     fn counted(bounces: &Bounces, bound: f64) -> Ending {
         let Bounces { e, tangential, mut slip, pull, .. } = *bounces;
         let time = bounces.time();

@@ -7,31 +7,13 @@ use glam::DVec3;
 
 use super::contact_state::ContactState;
 use super::islands::resting::Rests;
-use super::rounding::{HOP, SUMMED_HOP};
+use super::rounding::{DECAY, ELASTIC_ROW, FED, HOP, LONG_ROW, MEMORY, SMALL, SUMMED_HOP};
 use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::{ContactLaw, Model};
 
 /// The law that takes nothing away: nothing dies out by it.
 const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 };
-
-/// A bounce is small if the gap has opened by less than this many radii since the impact before.
-const SMALL: f64 = 1e-7;
-
-/// So many bounces in a row must not have died out, and so many times 1 / (1 − e): restitution alone would have left e⁻⁵⁰
-/// of their speed. Across less than [`SUMMED_HOP`] the first alone is enough.
-const MANY: u32 = 100;
-pub(super) const DECAY: f64 = 50.0;
-
-/// Elastic bounces in a row that coordinates cannot tell from none.
-const LOST: u32 = 1000;
-
-/// A row is fed if its last impulses are no more than this many times what all bodies weigh meanwhile: whatever is piled
-/// upon them. Those of a chain that ends by itself, in which a fast body is turned round across a small gap, are far more.
-const FED: f64 = 8.0;
-
-/// What each impact leaves of the memory of those before: the last ones are some 64.
-const MEMORY: f64 = 1.0 - 1.0 / 64.0;
 
 /// Small bounces of some contacts, each in a row so far.
 #[derive(Debug, Clone)]
@@ -65,10 +47,10 @@ impl Row {
     /// long beside what each of them loses.
     fn is_endless(&self, approach_speed: f64, keeps: f64, pull: f64) -> bool {
         if keeps == 1.0 {
-            return self.count > LOST && self.is_driven(pull);
+            return self.count > ELASTIC_ROW && self.is_driven(pull);
         }
         let loses = f64::from(self.count) * (1.0 - keeps) > DECAY;
-        self.count > MANY && loses && approach_speed > self.due || self.tiny > MANY && self.is_driven(pull)
+        self.count > LONG_ROW && loses && approach_speed > self.due || self.tiny > LONG_ROW && self.is_driven(pull)
     }
 
     /// Whether weights that change v_n by `pull` (m/s²) can have kept the row going.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::record::Trajectory;
-use super::rounding::{CLOCK_ULPS, HOP, SUMMED_HOP};
+use super::rounding::{CLOCK_ULPS, HOP, SLOW, SUMMED_HOP};
 use super::trajectories::Trajectories;
 use crate::physics::approach::Approach;
 use crate::physics::contact::{Class, Contact, Key, Kind};
@@ -12,9 +12,6 @@ use crate::physics::model::Model;
 use crate::physics::path::Path;
 use crate::physics::wall::{Part, curvature, touch};
 use crate::physics::wall_parts::part_ahead;
-
-/// Normal velocities below this share of the speed may be those of a sphere that slides.
-const SLOW: f64 = 1e-6;
 
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
@@ -144,7 +141,9 @@ impl Trajectories {
     pub(crate) fn v_n(&self, model: &Model, key: Key) -> f64 {
         let (kind, a, b) = key;
         if kind == Kind::Wall {
-            return self.contact_state(model, key).v_n;
+            let path = self.path(a, self.now);
+            let normal = touch(&model.faces[b], path.x, self.trajectory(a).r).normal;
+            return normal_velocity(path.v, DVec3::ZERO, normal);
         }
         let (one, two) = (self.trajectory(a), self.trajectory(b));
         pair_normal_velocity(one.x - two.x, one.v - two.v)

@@ -9,6 +9,7 @@
 use super::changed::Changed;
 use super::detector::Detector;
 use super::mechanics::Mechanics;
+use super::record::Plan;
 use super::rest_reason::RestReason;
 use super::schedule::entry::{EventKind, event_kind};
 use super::schedule::parts::Schedule;
@@ -289,28 +290,30 @@ impl<D: Detector> EventDriven<D> {
         let stale =
             plan.kind == Kind::Pair && trajectories.records[plan.other as usize].motion_version != plan.motion_version;
         let rested = !rests.is_empty() && rests.holds(trajectories.key(slot, &plan));
-        if !plan.is_contact || stale || rested {
-            schedule.predict_due(model, trajectories, rests, slot);
-            return Ok(());
+        if plan.is_contact && !stale && !rested {
+            if log.explaining {
+                keep_approach(trajectories, model, log, trajectories.key(slot, &plan));
+            }
+            if mechanics.collide_plain_pair(model, log, slot, &plan)? {
+                let Mechanics { trajectories, rests, .. } = mechanics;
+                schedule.predict(model, trajectories, rests, plan.other as usize);
+            } else if self.meet(model, log, slot, &plan)? {
+                return Ok(());
+            }
         }
-        if log.explaining {
-            keep_approach(&mechanics.trajectories, model, log, mechanics.trajectories.key(slot, &plan));
-        }
-        if mechanics.collide_plain_pair(model, log, slot, &plan)? {
-            let Mechanics { trajectories, rests, .. } = mechanics;
-            schedule.predict(model, trajectories, rests, plan.other as usize);
-            schedule.predict_due(model, trajectories, rests, slot);
-            return Ok(());
-        }
-        let key = mechanics.trajectories.key(slot, &plan);
-        let changed = mechanics.meet(model, log, key)?;
-        self.predict(model, &changed);
         // whatever became of the contact, this plan is used up
-        if !changed.spheres().contains(&self.mechanics.trajectories.sphere(slot)) {
-            let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
-            self.schedule.predict_due(model, trajectories, rests, slot);
-        }
+        let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = self;
+        schedule.predict_due(model, trajectories, rests, slot);
         Ok(())
+    }
+
+    /// The contact that the sphere at a slot planned happens; whether that has changed the sphere, so that it is predicted
+    /// with the others.
+    fn meet(&mut self, model: &Model, log: &mut Log, slot: usize, plan: &Plan) -> Result<bool, Stall> {
+        let key = self.mechanics.trajectories.key(slot, plan);
+        let changed = self.mechanics.meet(model, log, key)?;
+        self.predict(model, &changed);
+        Ok(changed.spheres().contains(&self.mechanics.trajectories.sphere(slot)))
     }
 
     /// Predicts the spheres that an event has changed.

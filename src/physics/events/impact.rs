@@ -16,13 +16,13 @@ use crate::physics::state::Stall;
 const MOST_ROWS: usize = 1 << 20;
 
 /// Tells the log of an impact.
-#[inline]
+#[inline(always)]
 pub(super) fn note(log: &mut Log, row: Contact) {
     log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
+    log.event(row);
     if log.contacts.len() < MOST_ROWS {
         log.contacts.push(row);
     }
-    log.event(row);
 }
 
 impl Mechanics {

@@ -10,19 +10,12 @@
 
 use std::collections::BTreeMap;
 
-use super::chattering::DECAY;
 use super::contact_state::ContactState;
-use super::rounding::{CHAIN, LOST};
+use super::rounding::{CHAIN, DECAY, LONG_CHAIN, LOST, SHARE, STUCK};
 use super::trajectories::Trajectories;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
-
-/// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
-pub(super) const LONG_CHAIN: u64 = 1000;
-
-/// Releases of one contact without the clock advancing after which it is held for a moment.
-const STUCK: u32 = 20;
 
 /// What an impact counts that moves its bodies by more than rounding, and any other event, towards the limits below.
 const IMPACT: u64 = 1;
@@ -34,10 +27,6 @@ const MOST_AT_ONCE: u64 = 1_000_000 * OTHER;
 
 /// How much may happen before the clock must have advanced by more than rounding.
 const STRETCH: u64 = 20 * MOST_AT_ONCE;
-
-/// Impacts by then of a contact that belongs to the same collapse, and rests with it: the limit of the chain is that none of
-/// them approaches any longer.
-const SHARE: u32 = 100;
 
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]

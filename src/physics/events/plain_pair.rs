@@ -4,9 +4,9 @@
 
 use super::contact_state::ContactState;
 use super::impact::note;
-use super::instant::LONG_CHAIN;
 use super::mechanics::Mechanics;
 use super::record::{Plan, Trajectory};
+use super::rounding::LONG_CHAIN;
 use super::trajectories::Trajectories;
 use crate::physics::contact::{Class, Kind};
 use crate::physics::impact_law::{pair_normal_velocity, pair_push, separation_speed};

@@ -8,15 +8,12 @@ use super::curved::bodies::Body;
 use super::islands::equilibrium::closed_speed;
 use super::mechanics::Mechanics;
 use super::rest_reason::RestReason;
-use super::rounding::{CLOCK_ULPS, SUMMED_HOP};
+use super::rounding::{CLOCK_ULPS, LEVEL, SUMMED_HOP};
 use crate::physics::contact::{Class, Key, Kind};
 use crate::physics::impact_law::classify;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::wall::touch;
-
-/// Cosine of the angle between two walls up to which an impulse off the one is mostly one off the other: 45°.
-const LEVEL: f64 = 0.7;
 
 /// What becomes of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,5 @@
-//! What counts as rounding in the event engine: every threshold that stands for it, in one place.
+//! Every threshold by which the event engine tells rest and rounding from motion, in one place. Those of the integration of
+//! curved rest stand in `curved`, those of the linear solvers in `support`, those of memory and speed in `schedule`.
 //!
 //! Each is relative to the size of what it is a rounding of: the clock's ulp, the coordinates, a speed, a radius. None is
 //! a length or a time, so that a scene in other units decides the same. Errors are usually an ulp or two; the thresholds
@@ -16,10 +17,27 @@
 //! | [`DRIVEN`] | an approach of two that rest | 1e-15 of the speed | rests break by rounding | soft blows break no rest |
 //! | [`WEDGE`] | the way out between two walls | 2 ulp | a sphere that just fits bounces for ever | a narrow wedge holds |
 //! | [`SHARED_GAP`] | a gap at a seam | 2 ulp of the coordinates | a sphere sinks in beyond a seam | walls hold too early |
-//! | [`SHARED_POINT`] | place of a seam | 1e-15 r | the same | the same |
+//! | [`SHARED_POINT`] | place of a seam | 1e-15 r | a sphere sinks in beyond a seam | walls hold too early |
 //! | [`TOUCHED_GAP`] | gap right after an impact | 1e-15 r | the energy of low bounces drifts | a graze counts as a bounce |
 //! | [`SUMMED_HOP`] | height of a bounce | – | millions of events before a rest | visible bounces are summed up |
-//! | [`PULLED`] | way pulled while bounces are summed | – | the same | the sum misses the pull |
+//! | [`PULLED`] | way pulled while bounces are summed | – | millions of events before a rest | the sum misses the pull |
+//! | [`SLOW`] | a slide's normal velocity | 1e-15 of the speed | what slides is pressed by the wrong part | more work |
+//! | [`APART`] | gap of an idle contact | up to 1e-11 r | rests that hold are not told | rests are told that are over |
+//! | [`PAUSE`] | time that a stuck contact is held | – | it is stuck again at once | it is seen to hang |
+//!
+//! Counts, and bounds that stand for what many contacts do together rather than for rounding:
+//!
+//! | threshold | of what | usually | too small | too large |
+//! |---|---|---|---|---|
+//! | [`LEVEL`] | cosine between two walls | 1 at a seam, 0 in a corner of a box | corners hold down | seams strike for ever |
+//! | [`SMALL`] | way of a bounce, in radii | – | chatter is not seen | bounces that can be seen count |
+//! | [`LONG_ROW`], [`DECAY`] | small bounces in a row | fewer if they die out | rows that die out rest | events without end |
+//! | [`ELASTIC_ROW`] | small elastic bounces in a row | – | chains that end rest | events without end |
+//! | [`FED`] | impulses beside what weighs | about 1 in a pile | piles chatter on | chains that end rest |
+//! | [`MEMORY`] | what each impact leaves of a row's sums | – | one impact decides | what is long past decides |
+//! | [`LONG_CHAIN`] | events at one instant | a few | more work | more work |
+//! | [`SHARE`] | impacts of one contact in a collapse | – | a bystander rests with it | a collapse rests piece by piece |
+//! | [`STUCK`] | releases of one contact at one instant | 1 or 2 | islands pause that would let go | more work |
 
 /// Flights shorter than this many ulp of the clock never decay: what is left of one is a rounding of its beginning (Zeno).
 pub(crate) const CLOCK_ULPS: f64 = 10.0;
@@ -65,3 +83,47 @@ pub(crate) const SUMMED_HOP: f64 = 1e-12;
 
 /// How far a sphere that something else holds may be pulled while bounces that are summed up go on, in radii.
 pub(crate) const PULLED: f64 = 1e-9;
+
+/// Normal velocities below this share of the speed may be those of a sphere that slides.
+pub(crate) const SLOW: f64 = 1e-6;
+
+/// Gap, in radii, from which on a contact that carries nothing is not told to rest: idle ones open up to 1e-6 of the
+/// accelerations before their island is solved again.
+pub(crate) const APART: f64 = 1e-10;
+
+/// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
+/// part by more than rounding, too short to be seen.
+pub(crate) const PAUSE: f64 = 1e-7;
+
+/// Cosine of the angle between two walls up to which an impulse off the one is mostly one off the other: 45°.
+pub(crate) const LEVEL: f64 = 0.7;
+
+/// A bounce is small if the gap has opened by less than this many radii since the impact before.
+pub(crate) const SMALL: f64 = 1e-7;
+
+/// So many small bounces of one contact in a row must not have died out. Across less than [`SUMMED_HOP`] that alone is
+/// chatter; else they must be more than [`DECAY`] times 1 / (1 − e) too.
+pub(crate) const LONG_ROW: u32 = 100;
+
+/// So many times 1 / (1 − e) impacts, restitution alone leaves e⁻⁵⁰ of the speed.
+pub(crate) const DECAY: f64 = 50.0;
+
+/// Elastic bounces in a row that coordinates cannot tell from none.
+pub(crate) const ELASTIC_ROW: u32 = 1000;
+
+/// A row is fed if its last impulses are no more than this many times what all bodies weigh meanwhile: whatever is piled
+/// upon them. Those of a chain that ends by itself, in which a fast body is turned round across a small gap, are far more.
+pub(crate) const FED: f64 = 8.0;
+
+/// What each impact leaves of the memory of those before: the last ones are some 64.
+pub(crate) const MEMORY: f64 = 1.0 - 1.0 / 64.0;
+
+/// Events at one instant after which it is watched whether approaches die out: chains that die sooner end by themselves.
+pub(crate) const LONG_CHAIN: u64 = 1000;
+
+/// Impacts at one instant of a contact that belongs to a collapse of others, and rests with it: the limit of the chain is
+/// that none of them approaches any longer.
+pub(crate) const SHARE: u32 = 100;
+
+/// Releases of one contact without the clock advancing after which it is held for a moment.
+pub(crate) const STUCK: u32 = 20;

@@ -194,7 +194,7 @@ impl Search {
     }
 
     fn pairs_in_cells(&mut self, from: usize) -> u64 {
-        let Some(cells) = &self.cells else { return 0 };
+        let cells = self.cells.as_ref().expect("cells are gone through only where they have been filled");
         let to = cells.len().min(from + CHUNK);
         let (found, most) = (&mut self.found, most_candidates(self.reach.len()));
         let full = Cell::new(found.len() > most);

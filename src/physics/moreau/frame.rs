@@ -64,7 +64,7 @@ impl Moreau {
     fn open(&mut self, model: &Model) -> Result<u64, Stall> {
         let h = self.settings.dt;
         if self.end.t + h == self.end.t {
-            return Err(self.standstill());
+            return Err(Stall::step_too_small(self.end.t, self.settings.dt));
         }
         with_flight!(model, flight => self.fall(flight, h));
         self.solution.clone_from(&self.free);

@@ -246,10 +246,4 @@ impl Moreau {
         );
         Stall { time, kind: StallKind::StepTooLarge, reason }
     }
-
-    pub(super) fn standstill(&self) -> Stall {
-        let (time, dt) = (self.end.t, self.settings.dt);
-        let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
-        Stall { time, kind: StallKind::StepTooSmall, reason }
-    }
 }

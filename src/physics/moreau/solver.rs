@@ -74,7 +74,7 @@ struct Gain {
     island: Island,
     /// By body, m/s; empty if rebounds contradict each other.
     u: Vec<DVec3>,
-    /// By contact, N s; likewise.
+    /// By contact, N s; empty if rebounds contradict each other.
     impulses: Vec<f64>,
     /// Σ m u² that it may have, J.
     allowed: f64,

@@ -82,7 +82,7 @@ impl Paper {
 
     /// Closes the frame at the accepted step: responses for the next frame, contacts, tallies.
     fn close(&mut self, model: &Model, log: &mut Log) {
-        self.step = self.trial.take().unwrap_or(0.0);
+        self.step = self.trial.take().expect("a frame closes at its trial step");
         std::mem::swap(&mut log.probes, &mut self.probes);
         let deepest = self.finder.found.iter().map(|o| o.degree).fold(0.0, f64::max);
         log.tallies.deepest_degree = log.tallies.deepest_degree.max(deepest);

@@ -3,15 +3,13 @@
 use super::kicks::Kicks;
 use super::watchdog::Watch;
 use crate::physics::contact::Probe;
+use crate::physics::method::LARGEST_TOLERANCE;
 use crate::physics::model::{Model, Settings};
 use crate::physics::overlap::{Finder, Overlap};
 use crate::physics::state::State;
 
 /// Accepted beyond the tolerance, dimensionless, as the paper prints it.
 pub(in crate::physics) const SLACK: f64 = 1e-4;
-
-/// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
-const LARGEST_TOLERANCE: f64 = 0.5;
 
 /// How far the search for the collision time has come; steps count from the frame's start, s.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -21,7 +21,7 @@ impl Paper {
         }
         if self.watch.stuck {
             self.watch = Watch::at(self.end.t);
-            return Some(self.standstill());
+            return Some(Stall::step_too_small(self.end.t, self.settings.dt));
         }
         if self.trial.is_none() && self.watch.cut >= PATIENCE + model.len() as u64 {
             let stalled = self.end.t - self.watch.since < self.watch.owed;
@@ -29,12 +29,6 @@ impl Paper {
             return stalled.then(|| self.shrinking(log));
         }
         None
-    }
-
-    fn standstill(&self) -> Stall {
-        let (time, dt) = (self.end.t, self.settings.dt);
-        let reason = format!("At t = {time} s a step of {dt} s is too small to change the time; take a larger dt.");
-        Stall { time, kind: StallKind::StepTooSmall, reason }
     }
 
     /// The frame in which a sphere leaves the range of numbers is given up before it is shown.

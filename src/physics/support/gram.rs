@@ -13,7 +13,7 @@ use super::problem::Row;
 /// Least square of what is new of a column: below, A has lost more digits than refinement brings back.
 const INDEPENDENT: f64 = 1e-8;
 
-/// The same where rows of which little is new are left out: they need no digits.
+/// Least square of what is new of a column where columns with less are left out: those that stay need fewer digits.
 const LEFT_OUT: f64 = 1e-10;
 
 /// Ratio of masses up to which multipliers that cancel in a light body cost it no more than three digits before refinement.

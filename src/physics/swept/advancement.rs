@@ -16,13 +16,11 @@ use crate::physics::contact::Probe;
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::rounding::{CLOSING, HOP};
 use crate::physics::log::Log;
+use crate::physics::method::LARGEST_TOLERANCE;
 use crate::physics::model::Settings;
 use crate::physics::path::Path;
 use crate::physics::wall::Face;
 use crate::roots::quadratic_fall;
-
-/// Larger tolerances count as this one: degree 1 is the centre on the plane, and a side must stay decided.
-const LARGEST_TOLERANCE: f64 = 0.5;
 
 /// Gaps up to this many radii are looked at to the end, wider ones when they have become so.
 const NEAR: f64 = 1e-3;

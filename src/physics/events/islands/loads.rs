@@ -2,13 +2,10 @@
 
 use super::resting::{Load, RestingContact, Rests};
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::events::rounding::APART;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
-
-/// Gap, in radii, from which on a contact that carries nothing is not told to rest: idle ones open up to 1e-6 of the
-/// accelerations before their island is solved again.
-const APART: f64 = 1e-10;
 
 impl Rests {
     /// A frame begins at `time`, s.
@@ -49,7 +46,16 @@ impl Rests {
 
     /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
     /// given in the frame.
+    #[inline]
     pub(crate) fn list(&mut self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
+        // every impact of a gas ends a frame, and nothing rests in it
+        if !self.held.is_empty() {
+            self.list_held(model, trajectories, log, end);
+        }
+        self.begin_frame(end);
+    }
+
+    fn list_held(&self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
         let met = log.contacts.len();
         for (&key, held) in self.held.iter().filter(|(_, held)| held.announced) {
             let impulse = Load { since: held.load.since.max(self.frame_start), ..held.load }.given(end);
@@ -62,6 +68,5 @@ impl Rests {
                 log.contacts.push(Contact { approach_speed: 0.0, ..row });
             }
         }
-        self.begin_frame(end);
     }
 }

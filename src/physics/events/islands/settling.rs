@@ -3,24 +3,20 @@
 use std::collections::BTreeSet;
 
 use super::equilibrium::{Settled, solve_island};
-use super::resting::{Curve, Island, IslandContact, Other, RestingContact, closed};
+use super::resting::{Curve, Island, IslandContact, Other, closed};
 use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::events::changed::Changed;
 use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::bodies::Body;
 use crate::physics::events::mechanics::Mechanics;
 use crate::physics::events::rest_reason::RestReason;
-use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
+use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, PAUSE, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
 use crate::physics::support::{Fate, islands};
 use crate::physics::wall::{Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::{part_ahead, part_end};
-
-/// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
-/// part by more than rounding, too short to be seen.
-const PAUSE: f64 = 1e-7;
 
 impl Mechanics {
     /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
@@ -273,10 +269,8 @@ impl Mechanics {
     /// Bounces that were summed up are over: what they have left of the tangential velocity.
     fn rub_off(&mut self, model: &Model, keys: &[Key]) {
         for &key in keys {
-            let due = |held: &&mut RestingContact| held.settles_at <= self.trajectories.now;
-            let held = Some(self.rests.kept_mut(key));
-            let Some(held) = held.filter(due) else { continue };
-            let Some(rub) = held.rub.take() else { continue };
+            let held = self.rests.kept_mut(key);
+            let Some(rub) = held.rub.take_if(|_| held.settles_at <= self.trajectories.now) else { continue };
             // what the bounces have taken is told as the begin of the rest, though something has told of one before
             held.announced = false;
             let (normal, line) =

@@ -19,7 +19,7 @@ pub(crate) enum EventKind {
 }
 
 /// What the entry of a slot at `time` (s) stands for.
-#[inline]
+#[inline(always)]
 pub(crate) fn event_kind(trajectories: &Trajectories, rests: &Rests, time: f64, slot: usize) -> EventKind {
     if time == f64::INFINITY {
         // nothing ever happens, perhaps because there is no sphere
@@ -49,7 +49,7 @@ pub(crate) fn event_order(trajectories: &Trajectories, rests: &Rests, time: f64,
 }
 
 /// When the next event of a slot is, s: of its sphere's plan, or the end of the island that the sphere leads.
-#[inline]
+#[inline(always)]
 pub(crate) fn event_time(trajectories: &Trajectories, rests: &Rests, slot: usize) -> f64 {
     let record = &trajectories.records[slot];
     let time = record.plan.contact.min(record.plan.crossing);

@@ -14,6 +14,7 @@ use crate::physics::model::Model;
 
 impl<D: Detector> Schedule<D> {
     /// Predicts the sphere at a slot afresh from the present on.
+    #[inline(always)]
     pub(crate) fn predict(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, slot: usize) {
         self.make_plan(model, trajectories, rests, slot);
         self.enter(trajectories, rests, slot);
@@ -21,6 +22,7 @@ impl<D: Detector> Schedule<D> {
 
     /// Predicts the sphere whose event is being handled, at this slot; call last, everything else being predicted: then it
     /// is known what comes next.
+    #[inline(always)]
     pub(crate) fn predict_due(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, slot: usize) {
         self.make_plan(model, trajectories, rests, slot);
         self.enter_due(trajectories, rests, slot);

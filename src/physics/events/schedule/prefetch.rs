@@ -13,7 +13,7 @@ use crate::physics::contact::Kind;
 use crate::physics::events::record::{CellRef, Exit, Record};
 use crate::physics::events::trajectories::Trajectories;
 
-/// Fewer spheres are in a fast cache anyhow.
+/// Fewer spheres are in a fast cache without it.
 const MANY: usize = 20_000;
 
 /// How many events ahead the places around are asked for, then the lines there, then those around the partner.

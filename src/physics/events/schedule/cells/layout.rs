@@ -166,7 +166,7 @@ fn table(cubes: DVec3, count: usize) -> [i32; 3] {
     let mut size = cubes.to_array().map(|n| n.min(1e6) as i32 + 5);
     let mut folded = false;
     while size.iter().copied().map(f64::from).product::<f64>() > limit {
-        let longest = (0..3).max_by_key(|&axis| size[axis]).unwrap_or(0);
+        let longest = (0..3).max_by_key(|&axis| size[axis]).expect("there are three axes");
         if size[longest] <= 4 {
             break;
         }
