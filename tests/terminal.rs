@@ -103,6 +103,34 @@ fn signals_end_it_with_their_code_and_a_clean_terminal() {
 }
 
 #[test]
+fn a_signal_ends_a_recording_under_way_and_keeps_it() {
+    for (signal, code) in [(Signal::TERM, 143), (Signal::HUP, 129)] {
+        let mut pty = carom(&["paper-0", "--paused"]).run();
+        pty.until_text(HINT);
+        pty.send("E...");
+        pty.until_text("REC");
+        pty.until("three frames", |screen| time(screen).is_some_and(|t| t >= 0.03));
+        pty.signal(signal);
+        assert_eq!(pty.exit(), code);
+        let recording = pty.folder().join("paper-0-1.carom");
+        let bytes = std::fs::read(&recording).unwrap_or_else(|error| panic!("{}: {error}", recording.display()));
+        assert_eq!(carom::recording::Recording::from_bytes(&bytes).expect("whole").frames.len(), 4);
+    }
+}
+
+#[test]
+fn what_a_newcomer_sees_first_is_a_collision_taken_apart() {
+    let mut pty = carom(&[]).run();
+    pty.until_text("A collision taken apart");
+    pty.until_text("collides");
+    pty.until_text("J       (1 + 0.96)");
+    pty.send(" ");
+    pty.until("the run", |screen| screen.contents().contains("RUN"));
+    pty.send("q");
+    assert_eq!(pty.exit(), 0);
+}
+
+#[test]
 fn a_hang_up_that_is_ignored_at_the_start_stays_ignored() {
     let start = carom(&["-c", r#"trap "" HUP; exec "$0" paper-1 --paused"#, env!("CARGO_BIN_EXE_carom")]);
     let mut pty = Start { program: "sh", ..start }.run();

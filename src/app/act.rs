@@ -25,7 +25,7 @@ const CARD_PAGE: usize = 5;
 
 impl State {
     pub(super) fn key(&mut self, key: Key) -> Effect {
-        (self.answer, self.news) = (None, None);
+        (self.answer, self.news, self.farewell) = (None, None, None);
         self.cost_told = self.cost_told.saturating_sub(1);
         // These work whatever is open and is being typed into, but that Ctrl-C closes the `:` line first.
         let typing = matches!(self.open, Open::Prompt(_));
@@ -311,6 +311,17 @@ impl State {
             (true, Some(_)) => (false, None),
         };
         (settings.inspector, settings.card) = (Some(inspector), card);
+    }
+
+    /// To the first collision, with its card open: what a newcomer sees first.
+    pub(super) fn first_look(&mut self) {
+        self.go_to_impact(true);
+        self.view_settings.card = Some(CardView::default());
+        let [run, next, help] =
+            [Action::TogglePause, Action::NextImpact, Action::Help].map(|action| self.key_of(action));
+        self.say(format!(
+            "A collision taken apart: {run} lets it run, {next} goes to the next, {help} lists the keys."
+        ));
     }
 
     fn toggle_card(&mut self) {

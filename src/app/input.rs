@@ -18,6 +18,8 @@ pub struct Setup {
     pub settings: Settings,
     /// Wait at t = 0 instead of running.
     pub paused: bool,
+    /// Go to the first collision, and wait there with its card open.
+    pub taken_apart: bool,
     /// Dots or characters.
     pub marker: Marker,
     /// Depth of colour.

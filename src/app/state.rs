@@ -92,6 +92,8 @@ pub(super) struct State {
     pub(super) orders: Orders,
     /// What the last key has led to, until the next key.
     pub(super) answer: Option<String>,
+    /// What has become of the recording that the last key has ended.
+    pub(super) farewell: Option<String>,
     /// What happened unasked and is worth a line, until the next key.
     pub(super) news: Option<String>,
     pub(super) keymap: Keymap,
@@ -145,6 +147,7 @@ impl State {
             open: Open::Nothing,
             orders: Orders::default(),
             answer: None,
+            farewell: None,
             news: None,
             area: Rect::default(),
             help: setup.keymap.help_rows(),
@@ -155,14 +158,21 @@ impl State {
             taken: None,
             pointer: Pointer::default(),
         };
-        state.warn();
-        if let Some((_, said)) = state.report.said {
-            state.tell(said::sentence(&said, state.current.scene.duration));
-        }
-        if !setup.paused {
-            state.run(true);
-        }
+        state.start(setup.paused, setup.taken_apart);
         Ok(state)
+    }
+
+    /// Says what there is to say at first, and sets out.
+    fn start(&mut self, paused: bool, taken_apart: bool) {
+        self.warn();
+        if let Some((_, said)) = self.report.said {
+            self.tell(said::sentence(&said, self.current.scene.duration));
+        }
+        if taken_apart {
+            self.first_look();
+        } else if !paused {
+            self.run(true);
+        }
     }
 
     /// The names of all scenes: the file the program was started with, then the built-in ones.

@@ -76,15 +76,19 @@ impl State {
 
     /// Writes the recording under way, if there is one, and says where it is.
     pub(super) fn end_recording(&mut self) {
-        if self.report.recorded.is_none() {
-            return;
+        if self.report.recorded.is_some() {
+            self.write_tape();
         }
+    }
+
+    /// Asks the worker for the recording under way, whether or not its latest report knows of it, and writes it.
+    pub(super) fn write_tape(&mut self) {
         let (sender, receiver) = mpsc::channel();
         self.worker.send(Command::EndRecording(sender));
         match receiver.recv_timeout(PATIENCE) {
             Ok(Some(taped)) => self.write_recording(taped),
             Ok(None) => {} // it was given up, which has been said
-            Err(_) => self.say("The recording is lost: the simulation does not answer."),
+            Err(_) => self.say_of_recording("The recording is lost: the simulation does not answer.".into()),
         }
     }
 
@@ -93,14 +97,20 @@ impl State {
         let count = frames.len() - 1;
         let scene = match readable(&scene) {
             Ok(scene) => scene,
-            Err(why) => return self.say(format!("The recording is not written: {why}.")),
+            Err(why) => return self.say_of_recording(format!("The recording is not written: {why}.")),
         };
         let stem = files::stem(&key);
         let bytes = Recording { key, scene, settings, changes, frames }.to_bytes();
-        self.say(match files::write(&self.folder, &stem, &[("carom", &bytes)]) {
+        self.say_of_recording(match files::write(&self.folder, &stem, &[("carom", &bytes)]) {
             Ok(names) => format!("Written: {}, {}.", names.join(", "), counted(count as u64, "frame")),
             Err(error) => format!("The recording is not written: {}.", printable::cause(&error)),
         });
+    }
+
+    /// Says what has become of a recording, now and, if this is the end, after it.
+    fn say_of_recording(&mut self, said: String) {
+        self.farewell = Some(said.clone());
+        self.say(said);
     }
 }
 

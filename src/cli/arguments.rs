@@ -74,7 +74,7 @@ pub(super) enum Command {
 /// The TUI.
 #[derive(Debug, Args)]
 pub(super) struct Play {
-    /// Scene file or built-in name [default: that of the configuration, else the first built-in scene]
+    /// Scene file or built-in name [default: that of the configuration, else a collision of billiard taken apart]
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) scene: Option<OsString>,
     #[command(flatten)]

@@ -12,11 +12,11 @@ use super::lines;
 use super::output::Output;
 use super::replay;
 use super::signals::Signals;
-use super::talk::{self, Ears, Event};
+use super::talk::{self, Begin, Ears, Event};
 use crate::app::Setup;
 use crate::config::{self, Config};
 use crate::recording::Recording;
-use crate::scene::{self, Opened, Settings};
+use crate::scene::{self, Opened, Scene, Settings};
 use crate::terminal::{self, Options, Outcome};
 use crate::text_mode::{self, Ending};
 use crate::view::{Colors, Marker};
@@ -58,12 +58,22 @@ fn replay(arguments: &Play, config: Config, opened: Opened, recording: Recording
     if !is_text(arguments) {
         return run_screen(arguments, config, (opened, settings, Some(recording)), None);
     }
-    if !arguments.paused {
-        return Err(Failure::Usage("a recording is told in lines with --paused only".into()));
-    }
     let signals = Signals::watch()?;
+    let begin = if arguments.paused { Begin::Here(None) } else { Begin::Tell(latest_end(&opened.scene, &recording)) };
     let setup = Setup { recording: Some(recording), ..setup(config, opened, settings) };
-    talk::talk(setup, (0.0, None), &Ears::open()?, &signals)
+    talk::talk(setup, begin, &Ears::open()?, &signals)
+}
+
+/// By when a recording has ended, s: no frame is longer than dt, and one more is none of it.
+fn latest_end(scene: &Scene, recording: &Recording) -> f64 {
+    let begins = scene.resume.as_ref().map_or(0.0, |resume| resume.t);
+    let longest = recording.changes.iter().map(|change| change.settings.dt).fold(recording.settings.dt, f64::max);
+    begins + (recording.frames.len() as f64 + 1.0) * longest
+}
+
+/// Whether neither the command line nor the configuration says what to look at.
+fn is_first_look(arguments: &Play, configured: &OsStr) -> bool {
+    arguments.scene.is_none() && !arguments.paused && configured == config::FIRST
 }
 
 fn is_text(arguments: &Play) -> bool {
@@ -76,7 +86,7 @@ fn tell(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure>
     said.iter().for_each(|said| note(said));
     let ears = if arguments.paused || lines::are_typed() { Some(Ears::open()?) } else { None };
     if let Some(ears) = ears.as_ref().filter(|_| arguments.paused) {
-        return talk::talk(setup(config, opened, settings), (0.0, None), ears, &signals);
+        return talk::talk(setup(config, opened, settings), Begin::Here(None), ears, &signals);
     }
     let endless = scene::endless(&opened.scene, settings, opened.scene.duration);
     endless.iter().for_each(|warning| note(&format!("{}: {warning}", opened.key)));
@@ -97,7 +107,7 @@ fn tell(arguments: &Play, config: Config, opened: Opened) -> Result<(), Failure>
             Some((ears, line)) => {
                 out.finish()?;
                 let first = Some(line).filter(|line| !line.is_empty());
-                talk::talk(setup(config, opened, settings), (time, first), &ears, &signals)
+                talk::talk(setup(config, opened, settings), Begin::At(time, first), &ears, &signals)
             }
             None => signals.check(),
         },
@@ -111,6 +121,7 @@ fn setup(config: Config, opened: Opened, settings: Settings) -> Setup {
         opened,
         settings,
         paused: true,
+        taken_apart: false,
         marker,
         colors,
         inks,
@@ -137,6 +148,7 @@ fn run_screen(
         recording,
         message,
         paused: arguments.paused,
+        taken_apart: is_first_look(arguments, &config.scene),
         marker: arguments.display.marker.map(Into::into).or(config.marker),
         color: arguments.display.color.map_or(config.color, Color::depth),
         bandwidth: arguments.bandwidth.or(config.bandwidth),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
-use super::failure::Failure;
+use super::failure::{Failure, note};
 use super::lines;
 use super::output::Output;
 use super::signals::Signals;
@@ -52,6 +52,16 @@ impl Ears {
     }
 }
 
+/// How a conversation begins.
+pub(super) enum Begin {
+    /// At the start, with a line if one has come.
+    Here(Option<String>),
+    /// At this time, s, with a line if one has come.
+    At(f64, Option<String>),
+    /// With a recording, which ends by this time, s, told event by event up to its end, or to a line.
+    Tell(f64),
+}
+
 /// A conversation under way.
 struct Talk {
     app: App,
@@ -65,41 +75,67 @@ struct Talk {
     asked: bool,
     /// What was said last in answer to the last key.
     said: Option<String>,
+    /// Events told so far, while they are told as they come.
+    following: Option<u64>,
 }
 
-/// Talks from time `start` (s) on, beginning with a line if one has come, until the user has had enough or there are no more lines.
+/// Talks until the user has had enough or there are no more lines. A recording under way is written, whatever ends it.
 ///
 /// # Errors
 /// If the output cannot be written, the simulation fails, or a signal comes.
-pub(super) fn talk(
-    setup: Setup,
-    (start, first): (f64, Option<String>),
-    ears: &Ears,
-    signals: &Signals,
-) -> Result<(), Failure> {
+pub(super) fn talk(setup: Setup, begin: Begin, ears: &Ears, signals: &Signals) -> Result<(), Failure> {
     let (keymap, news) = (setup.keymap.clone(), ears.sender.clone());
     let app = App::new(setup, Arc::new(move || drop(news.send(Event::News))))?;
-    let (out, waiting) = (Output::stdout(), first.into_iter().map(Some).collect());
-    let mut talk = Talk { app, keymap, out, waiting, told: None, asked: true, said: None };
+    let (out, waiting) = (Output::stdout(), VecDeque::new());
+    let mut talk = Talk { app, keymap, out, waiting, told: None, asked: true, said: None, following: None };
     talk.welcome()?;
-    if start > 0.0 {
-        talk.type_in(&format!(":goto {start:?}"))?;
-    }
-    loop {
-        if talk.go_on()? {
-            return talk.out.finish();
+    let (time, first) = match begin {
+        Begin::Here(first) => (None, first),
+        Begin::At(time, first) => (Some(time).filter(|time| *time > 0.0), first),
+        Begin::Tell(end) => {
+            talk.following = Some(0);
+            (Some(end), None)
         }
-        match ears.events.recv_timeout(LOOK) {
-            Ok(Event::Line(line)) => talk.waiting.push_back(line),
-            Ok(Event::News) => talk.heed(Input::News)?,
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => talk.waiting.push_back(None),
-        }
-        signals.check()?;
+    };
+    talk.waiting.extend(first.into_iter().map(Some));
+    if let Some(time) = time {
+        talk.type_in(&format!(":goto {time:?}"))?;
     }
+    let ended = talk.listen(ears, signals);
+    let farewell = talk.app.finish();
+    farewell.iter().filter(|said| talk.said.as_ref() != Some(said)).for_each(|said| note(said));
+    ended.and_then(|()| talk.out.finish())
 }
 
 impl Talk {
+    /// Obeys lines and tells news until the talk is over.
+    fn listen(&mut self, ears: &Ears, signals: &Signals) -> Result<(), Failure> {
+        loop {
+            if self.go_on()? {
+                return Ok(());
+            }
+            match ears.events.recv_timeout(LOOK) {
+                Ok(Event::Line(line)) => self.waiting.push_back(line),
+                Ok(Event::News) => self.news()?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => self.waiting.push_back(None),
+            }
+            signals.check()?;
+        }
+    }
+
+    /// Takes the application's news, and tells what has happened where events are told as they come.
+    fn news(&mut self) -> Result<(), Failure> {
+        self.heed(Input::News)?;
+        let Some(told) = self.following else { return Ok(()) };
+        let log = Arc::clone(&self.app.report().log);
+        for (_, event) in log.iter().filter(|(number, _)| *number > told) {
+            writeln!(self.out, "{}", explain::event(event))?;
+        }
+        self.following = Some(log.total());
+        Ok(())
+    }
+
     fn welcome(&mut self) -> Result<(), Failure> {
         let name = |action| self.keymap.keys(action).first().map_or_else(|| "no key".into(), Key::to_string);
         let (help, quit) = (name(Action::Help), name(Action::Quit));
@@ -127,6 +163,10 @@ impl Talk {
             }
             let free = self.app.settled() || self.app.runs_freely();
             let stops = matches!(self.waiting.front(), Some(Some(line)) if line.eq_ignore_ascii_case("esc"));
+            if matches!(self.waiting.front(), Some(Some(_))) && self.following.take().is_some() {
+                self.heed(Input::Key(Key::plain(Code::Escape)))?; // what is told as it comes ends with a line
+                continue;
+            }
             if !free && !stops {
                 return Ok(false);
             }

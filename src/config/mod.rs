@@ -23,5 +23,5 @@ mod values;
 pub use defaults::defaults;
 pub use open::{open, parse};
 pub use place::{VARIABLE, default_path};
-pub use settings::Config;
+pub use settings::{Config, FIRST};
 pub use values::bandwidth;

@@ -4,9 +4,11 @@ use std::ffi::OsString;
 
 use crate::{
     app::Keymap,
-    scene::builtin,
     view::{Colors, Inks, Marker},
 };
+
+/// The scene to begin with where nothing names one: sixteen balls, and from the first collision on there is much to see.
+pub const FIRST: &str = "billiard";
 
 /// Most pictures per second that a configuration may ask for.
 pub(super) const FASTEST: u32 = 60;
@@ -33,7 +35,7 @@ pub struct Config {
 impl Default for Config {
     fn default() -> Config {
         Config {
-            scene: builtin::ALL[0].name.into(),
+            scene: FIRST.into(),
             marker: None,
             color: None,
             frame_rate: 30,

@@ -1,7 +1,7 @@
 //! The loop: events in, pictures out.
 
 use std::{
-    io,
+    io::{self, Write},
     os::fd::AsFd,
     path::PathBuf,
     sync::{
@@ -68,6 +68,7 @@ pub fn run(options: Options) -> Result<Outcome, Error> {
         opened: options.opened,
         settings: options.settings,
         paused: options.paused,
+        taken_apart: options.taken_apart,
         marker: environment.marker(options.marker),
         colors: environment.colors(options.color),
         inks: options.inks,
@@ -114,10 +115,15 @@ type Step = Result<Option<Outcome>, Error>;
 impl Driver {
     fn run(mut self) -> Result<Outcome, Error> {
         let outcome = self.until_the_end();
+        let farewell = if outcome.is_ok() { self.app.finish() } else { None };
         match outcome {
             Ok(Outcome::Quit) => self.leave(!signals::somebody_could_continue_us())?,
             Ok(Outcome::Signal(number)) if number != SIGHUP => self.leave(true)?,
             _ => {}
+        }
+        drop(self.guard);
+        if let Some(said) = farewell {
+            let _ = writeln!(io::stderr(), "carom: {said}"); // the terminal may be gone
         }
         outcome
     }

@@ -23,6 +23,8 @@ pub struct Options {
     pub message: Option<String>,
     /// Wait at t = 0 instead of running.
     pub paused: bool,
+    /// Go to the first collision, and wait there with its card open.
+    pub taken_apart: bool,
     /// Dots or characters; `None`: as the locale says.
     pub marker: Option<Marker>,
     /// Depth of colour; `None`: as the environment says.

@@ -15,6 +15,9 @@ use crate::snapshot::{Class, Contact, Kind, Snapshot};
 /// Part of the view's width that the longest arrow takes at most.
 const LONGEST: f64 = 0.2;
 
+/// Cells of a view that there are for each contact's arrows: with fewer they are drawn over each other, and none can be read.
+const CELLS: usize = 24;
+
 /// Length of an arrow head's barbs, dots; shorter arrows have none.
 const BARB: f64 = 3.0;
 
@@ -46,6 +49,29 @@ impl Quantity {
         amount.filter(|amount| amount.is_finite() && *amount > 0.0)
     }
 
+    /// The contacts whose arrows are drawn, and how the label names the choice, if not all are: where they would lie over each
+    /// other, those of the selected sphere and of what it touches, or else the largest.
+    fn drawn(self, view: &View) -> (Vec<usize>, String) {
+        let snapshot = view.screen.snapshot;
+        let amount = |index: usize| self.of(snapshot, &snapshot.contacts[index]);
+        let mut all: Vec<usize> = (0..snapshot.contacts.len()).filter(|index| amount(*index).is_some()).collect();
+        let most = usize::from(view.area.width) * usize::from(view.area.height) / CELLS;
+        if all.len() <= most {
+            return (all, String::new());
+        }
+        if let Some(selected) = view.screen.view_settings.selected {
+            let has = |index: usize, sphere: usize| bodies(&snapshot.contacts[index]).contains(&Some(sphere));
+            let touched: Vec<usize> = all.iter().filter(|index| has(**index, selected)).copied().collect();
+            let near: Vec<usize> =
+                touched.iter().flat_map(|index| bodies(&snapshot.contacts[*index])).flatten().collect();
+            all.retain(|index| near.iter().any(|sphere| has(*index, *sphere)));
+            return (all, format!(" at #{selected}"));
+        }
+        all.sort_by(|a, b| amount(*b).unwrap_or(0.0).total_cmp(&amount(*a).unwrap_or(0.0)));
+        all.truncate(most);
+        (all, format!(" top {most}"))
+    }
+
     /// What an arrow of the length of a metre stands for, if there is an arrow: so much that the longest takes a fifth of
     /// the width, to a round number, so that arrows of different frames can be compared.
     fn per_meter(self, view: &View) -> Option<f64> {
@@ -63,7 +89,7 @@ impl Quantity {
             Quantity::Impulse => ("J", "N s"),
             Quantity::Force => ("F", "N"),
         };
-        Some(format!("  {sign} {} {unit}/m", format::setting(per_meter)))
+        Some(format!("  {sign} {} {unit}/m{}", format::setting(per_meter), self.drawn(view).1))
     }
 
     /// Draws an arrow on each sphere that is pushed, along the contact's normal.
@@ -74,12 +100,19 @@ impl Quantity {
             Quantity::Force => sheet.palette.notice(),
         };
         let ink = Ink::new(Layer::Arrow, style);
-        for contact in &view.screen.snapshot.contacts {
-            if let Some(amount) = self.of(view.screen.snapshot, contact) {
+        let snapshot = view.screen.snapshot;
+        for index in self.drawn(view).0 {
+            let contact = &snapshot.contacts[index];
+            if let Some(amount) = self.of(snapshot, contact) {
                 draw_pushes(view, contact, amount / per_meter, ink);
             }
         }
     }
+}
+
+/// The spheres of a contact.
+fn bodies(contact: &Contact) -> [Option<usize>; 2] {
+    [Some(contact.a), (contact.kind == Kind::Pair).then_some(contact.b)]
 }
 
 /// Arrows of so many metres along a contact's normal, outside the spheres that it pushes.

@@ -57,8 +57,7 @@ pub(super) fn draw(screen: &Screen, card: CardView, area: Rect, sheet: &mut Shee
     let order = order(screen.snapshot, screen.view_settings.selected);
     let cursor = order.iter().position(|&index| index == chosen).unwrap_or(0);
     let glyphs = column.sheet().glyphs;
-    let remark =
-        format!("{} of {}  {}{} choose  Esc closes", cursor + 1, contacts.len(), glyphs.more[0], glyphs.more[1]);
+    let remark = remark(cursor + 1, contacts.len(), glyphs.more, column.width().saturating_sub("contact  ".len()));
     column.heading("contact", &remark);
     draw_list(screen, &order, cursor, &mut column);
     let Some(text) = explain::card(screen.snapshot, chosen, glyphs.with) else { return };
@@ -74,6 +73,15 @@ pub(super) fn draw(screen: &Screen, card: CardView, area: Rect, sheet: &mut Shee
     }
     column.skip();
     probes::draw(&search, &mut column);
+}
+
+/// Which contact it is of how many, and as much of the keys as fits into so many columns: a hint that is cut tells nothing.
+fn remark(number: usize, count: usize, [up, down]: [&str; 2], room: usize) -> String {
+    let place = format!("{number} of {count}");
+    let hints =
+        [format!("  {up}{down} choose  Esc closes"), format!("  {up}{down}  Esc closes"), "  Esc closes".into()];
+    let hint = hints.iter().find(|hint| sheet::width(&place) + sheet::width(hint) <= room);
+    hint.map_or_else(|| place.clone(), |hint| format!("{place}{hint}"))
 }
 
 /// The contacts around the cursor, a row each; nothing if there is only one.
@@ -127,4 +135,26 @@ fn rows(card: &Card, column: &Column) -> Vec<Row> {
         }
     }
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hint_is_shown_whole_or_not_at_all() {
+        for (number, count) in [(1, 1), (10, 12), (100, 666), (12_345, 100_000)] {
+            for room in 0..60 {
+                let remark = remark(number, count, ["↑", "↓"], room);
+                let hint = remark.strip_prefix(&format!("{number} of {count}")).expect("the place always comes first");
+                assert!(
+                    hint.is_empty() || hint.ends_with("Esc closes") && sheet::width(&remark) <= room,
+                    "{room}: {remark}"
+                );
+            }
+        }
+        // 29 columns are left beside the heading at 80 columns
+        assert_eq!(remark(1, 9, ["↑", "↓"], 29), "1 of 9  ↑↓ choose  Esc closes");
+        assert_eq!(remark(100, 666, ["↑", "↓"], 29), "100 of 666  ↑↓  Esc closes");
+    }
 }

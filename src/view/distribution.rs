@@ -1,5 +1,6 @@
 //! How many spheres are how fast, beside Maxwell's distribution, or where across the view: a chart for some spheres.
 
+use glam::DVec3;
 use ratatui::layout::Rect;
 
 use super::{
@@ -18,8 +19,8 @@ const PLACES: usize = 14;
 /// Rows of the chart.
 const CHART: u16 = 7;
 
-/// Rows that must be left under it.
-const UNDER: usize = 20;
+/// Rows that must be left under it: a screen of 80×24 has as many.
+const UNDER: usize = 12;
 
 /// Bars, at most one per column.
 const BARS: usize = 28;
@@ -34,14 +35,16 @@ struct Counts {
     bars: Vec<u64>,
     /// Where the first bar begins, and where the last ends.
     ends: [f64; 2],
+    /// Whether each bar is a bin of the scene.
+    bins: bool,
     /// How many Maxwell's distribution has in each, where speeds are counted.
     maxwell: Option<Vec<f64>>,
 }
 
 /// Draws the chart where there are spheres enough, and room; whether it did. Without gravity it is of speeds, which in a gas become
-/// Maxwell's; with gravity of places across, which on a Galton board become a bell.
+/// Maxwell's; with gravity of places across, or of bins where the scene has such, which on a Galton board become a bell.
 pub(super) fn draw(snapshot: &Snapshot, column: &mut Column) -> bool {
-    let flies = snapshot.stage.gravity == glam::DVec3::ZERO;
+    let flies = snapshot.stage.gravity == DVec3::ZERO;
     let least = if flies { SPEEDS } else { PLACES };
     if snapshot.x.len() < least || column.rows() < usize::from(CHART) + UNDER {
         return false;
@@ -49,10 +52,15 @@ pub(super) fn draw(snapshot: &Snapshot, column: &mut Column) -> bool {
     let bars = BARS.min(column.width());
     let (heading, counts, unit) = match flies {
         true => ("speeds", speeds(snapshot, bars), "m/s"),
-        false => ("places", places(snapshot, bars / 2), "m"),
+        false => ("places", bins(snapshot).or_else(|| places(snapshot, bars / 2)), "m"),
     };
     let Some(counts) = counts else { return false };
-    column.heading(heading, if counts.maxwell.is_some() { "line: Maxwell's" } else { "along x" });
+    let remark = match counts.maxwell {
+        Some(_) => "line: Maxwell's".into(),
+        None if counts.bins => counts.bars.iter().map(u64::to_string).collect::<Vec<_>>().join(" "),
+        None => "along x".into(),
+    };
+    column.heading(if counts.bins { "bins" } else { heading }, &remark);
     let area = column.take(CHART);
     draw_chart(&counts, area, column.sheet_mut());
     let ends = counts.ends.map(|end| format!("{} {unit}", format::setting(end)));
@@ -87,6 +95,34 @@ fn places(snapshot: &Snapshot, bars: usize) -> Option<Counts> {
     count(snapshot.x.iter().map(|x| x.x), [view.min.x, view.max.x], bars)
 }
 
+/// How many spheres are in which bin: between two neighbours of the upright walls across x that stand lowest, and no higher than
+/// the lower of them. None if there are no three such bins of one width.
+fn bins(snapshot: &Snapshot) -> Option<Counts> {
+    let upright = |corners: &[DVec3; 4]| corners.iter().all(|corner| corner.x == corners[0].x);
+    let low = |corners: &[DVec3; 4]| corners.iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+    let high = |corners: &[DVec3; 4]| corners.iter().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+    let walls: Vec<&[DVec3; 4]> =
+        snapshot.stage.walls.iter().map(|(corners, _)| corners).filter(|corners| upright(corners)).collect();
+    let floor = walls.iter().map(|corners| low(corners)).fold(f64::INFINITY, f64::min);
+    let mut plates: Vec<(f64, f64)> =
+        walls.iter().filter(|corners| low(corners) == floor).map(|corners| (corners[0].x, high(corners))).collect();
+    plates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    plates.dedup_by_key(|plate| plate.0);
+    let widths = plates.windows(2).map(|pair| pair[1].0 - pair[0].0);
+    let least = widths.clone().fold(f64::INFINITY, f64::min);
+    // what a bin is wide is written in decimals: the sums of their binary forms differ by rounding
+    let between: Vec<&[(f64, f64)]> =
+        plates.windows(2).filter(|pair| pair[1].0 - pair[0].0 <= least * (1.0 + 1e-9)).collect();
+    let (first, last) = (between.first()?, between.last()?);
+    if between.len() < 3 || last[1].0 - first[0].0 > least * between.len() as f64 * (1.0 + 1e-9) {
+        return None;
+    }
+    let inside = |pair: &[(f64, f64)], x: DVec3| x.x >= pair[0].0 && x.x < pair[1].0 && x.y < pair[0].1.min(pair[1].1);
+    let counted = |pair: &&[(f64, f64)]| snapshot.x.iter().filter(|x| inside(pair, **x)).count() as u64;
+    let ends = [first[0].0, last[1].0];
+    Some(Counts { bars: between.iter().map(counted).collect(), ends, bins: true, maxwell: None })
+}
+
 /// Values in bars of equal width; those beyond the ends, and what is no number, in none.
 fn count(values: impl Iterator<Item = f64>, ends: [f64; 2], bars: usize) -> Option<Counts> {
     let width = (ends[1] - ends[0]) / bars as f64;
@@ -97,7 +133,7 @@ fn count(values: impl Iterator<Item = f64>, ends: [f64; 2], bars: usize) -> Opti
     for value in values.filter(|value| (ends[0]..ends[1]).contains(value)) {
         counted[(((value - ends[0]) / width) as usize).min(bars - 1)] += 1;
     }
-    Some(Counts { bars: counted, ends, maxwell: None })
+    Some(Counts { bars: counted, ends, bins: false, maxwell: None })
 }
 
 /// e^(−x) for x from 0 on, by its series: the same on every machine.

@@ -10,6 +10,9 @@ use super::side::Side;
 /// The views stand one over the other where that draws the scene larger by this factor.
 const LARGER: f64 = 1.15;
 
+/// A scene so many times deeper than it is high lies flat: what happens in it is seen from above.
+const FLAT: f64 = 2.0;
+
 /// Rows that each of two views over each other has at least.
 const FEWEST: u16 = 3;
 
@@ -121,7 +124,10 @@ fn panes(views: Rect, area: Rect, settings: &ViewSettings, (inspected, extent): 
         _ if views.is_empty() => Vec::new(),
         Views::Side => vec![pane(Side::Side, views)],
         Views::Top => vec![pane(Side::Top, views)],
-        // A card explains the contact in the view that shows slopes.
+        // A card explains the contact in the view that shows slopes, or from above where a scene lies flat.
+        Views::Both if replaced && settings.card.is_some() && extent.z > FLAT * extent.y => {
+            vec![pane(Side::Top, views)]
+        }
         Views::Both if replaced && settings.card.is_some() => vec![pane(Side::Side, views)],
         Views::Both if replaced => vec![pane(Side::Top, views)],
         Views::Both if narrow => vec![pane(Side::Side, views)],

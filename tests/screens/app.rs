@@ -58,9 +58,10 @@ impl User {
         let (keymap, recording) = more;
         let inks = Inks::default();
         let folder = tempfile::tempdir().expect("a folder");
-        let (marker, colors) = (Marker::Ascii, Colors::Ansi16);
+        let (marker, colors, taken_apart) = (Marker::Ascii, Colors::Ansi16, false);
+        let path = folder.path().into();
         let setup =
-            Setup { opened, settings, paused, marker, colors, inks, keymap, recording, folder: folder.path().into() };
+            Setup { opened, settings, paused, taken_apart, marker, colors, inks, keymap, recording, folder: path };
         let (sender, news) = mpsc::channel();
         let app = App::new(setup, tell(sender)).expect("there is a thread to be had");
         let mut user = User { app, folder, news, screen: Buffer::empty(Rect::new(0, 0, 80, 24)) };

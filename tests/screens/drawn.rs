@@ -177,3 +177,15 @@ fn paths_impulses_and_forces_look_as_stored() {
     let ahead = Ahead { sphere: 0, path, contact: None, until: 4.0 };
     store("drawn", &Screen { trail: &trail, ahead: Some(&ahead), ..scene.screen() });
 }
+
+#[test]
+fn in_a_heap_only_the_largest_forces_are_drawn_or_those_near_the_selected_sphere() {
+    let mut user = User::with("inelastic-666");
+    user.type_in(":goto 3\n:show forces\n"); // by moreau
+    let (label, crowd) = (user.row(1), user.screen.clone());
+    let resting = user.snapshot().contacts.iter().filter(|contact| contact.class == Class::Rest).count();
+    assert!(resting > 100 && label.contains(" N/m top "), "{resting}: {label}");
+    user.type_in(":select 100\n");
+    assert!(user.row(1).contains(" at #100"), "{}", user.text());
+    assert_ne!(user.screen, crowd);
+}

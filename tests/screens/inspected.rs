@@ -70,12 +70,39 @@ fn chart(name: &str, until: f64) -> Buffer {
 }
 
 #[test]
-fn a_gas_shows_its_speeds_beside_maxwells_and_a_galton_board_where_its_balls_lie() {
+fn a_gas_shows_its_speeds_beside_maxwells() {
     let gas = frame::text(&chart("box-gas", 0.5));
     assert!(gas.contains("speeds  line: Maxwell's"), "{gas}");
-    let board = chart("galton", 15.0);
-    let text = frame::text(&board);
-    assert!(text.contains("places  ") && text.contains("along x"), "{text}");
-    let bars = |row: u16| (91..119).filter(|x| board[(*x, row)].symbol() != " ").count();
-    assert!((2..9).any(|row| bars(row) > 0) && bars(8) < 28, "where there is no ball there is no bar\n{text}");
+    let heap = frame::text(&chart("zigzag", 15.0));
+    assert!(!heap.contains("places"), "five balls make no chart\n{heap}");
+}
+
+#[test]
+fn a_galton_board_ends_as_a_bell_that_the_inspector_counts_by_bins() {
+    let opened = scene::open("galton").expect("built in");
+    let mut run = Simulation::new(&opened.scene, opened.scene.solver);
+    run.run_to(opened.scene.duration, |_| Some(Simulation::SLICE));
+    let state = run.state();
+    // seven bins of half a metre, 2 m high
+    let mut bins = [0_usize; 7];
+    for x in &state.x {
+        assert!(x.y < 2.0, "a ball is on its way: {x}");
+        bins[((x.x + 1.75) / 0.5) as usize] += 1;
+    }
+    let count: usize = bins.iter().sum();
+    let n = opened.scene.spheres.len();
+    let most = (0..7).max_by_key(|bin| bins[*bin]).expect("seven");
+    assert_eq!(count, n);
+    assert!(bins[..=most].is_sorted() && bins[most..].iter().rev().is_sorted(), "one hill: {bins:?}");
+    // The mean of n places has a standard error of σ/√n; three of them from the middle are a board that is not straight.
+    let mean = bins.iter().enumerate().map(|(bin, count)| bin as f64 * *count as f64).sum::<f64>() / n as f64;
+    let square = |(bin, count): (usize, &usize)| (bin as f64 - mean) * (bin as f64 - mean) * *count as f64;
+    let variance = bins.iter().enumerate().map(square).sum::<f64>() / n as f64;
+    assert!((mean - 3.0).abs() < 3.0 * (variance / n as f64).sqrt(), "{bins:?}: mean {mean}");
+    assert!(variance < 4.0, "seven bins alike have 4: {bins:?}: {variance}");
+    let stage = Arc::new(Stage::of(&opened.key, &opened.scene));
+    let scene = stages::Scene { snapshot: Snapshot::of(&stage, &run, None), ..stages::drop() };
+    let text = frame::text(&super::draw(&scene.screen(), 120, 40));
+    let told = bins.map(|count| count.to_string()).join(" ");
+    assert!(text.contains(&format!("bins  {told}\n")), "{told}\n{text}");
 }

@@ -60,7 +60,7 @@ pub(crate) struct Pty {
     /// Everything the program has written.
     pub(crate) output: Vec<u8>,
     /// Where it runs.
-    _folder: tempfile::TempDir,
+    folder: tempfile::TempDir,
 }
 
 impl Start<'_> {
@@ -103,7 +103,7 @@ impl Start<'_> {
             answers: self.answers,
             searched: 0,
             output: Vec::new(),
-            _folder: folder,
+            folder,
         }
     }
 }
@@ -217,6 +217,12 @@ impl Pty {
     }
 
     /// Its process id.
+    /// Where the program runs, and writes.
+    #[allow(dead_code)] // of the binaries that share this file only one asks
+    pub(crate) fn folder(&self) -> &std::path::Path {
+        self.folder.path()
+    }
+
     pub(crate) fn pid(&self) -> i32 {
         self.pid.as_raw_nonzero().get()
     }
