@@ -12,7 +12,7 @@ use super::failure::{Failure, note};
 use super::output::Output;
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
-use crate::export::{CrowdRow, Format, Table, TradeNote, TradeRow, read_trade};
+use crate::export::{Format, Table, TradeNote, TradeRow, read_trade};
 use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::printable;
 use crate::scene::{self, Method, Opened};
@@ -28,7 +28,10 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
     let merged: Vec<_> = arguments.merge.iter().map(|path| ("the part", path.as_path())).collect();
     refuse_shared(&outputs(arguments), &merged)?;
     if let Some(seeds) = arguments.crowd {
-        return crowd(arguments, seeds, signals);
+        return super::crowd::crowd(arguments, seeds, ladder(arguments), signals);
+    }
+    if super::crowd::are_parts(&arguments.merge) {
+        return super::crowd::merge(arguments);
     }
     let files = Files::open(arguments)?;
     if !arguments.merge.is_empty() {
@@ -133,16 +136,6 @@ impl Files {
         Ok(Files { csv, svg, json, report_on_stdout: !taken })
     }
 
-    fn write_crowd(self, text: &str, rows: &[CrowdRow]) -> Result<(), Failure> {
-        for (format, file) in [(Format::Csv, self.csv), (Format::JsonLines, self.json)] {
-            let Some(file) = file else { continue };
-            let mut table = Table::new::<CrowdRow>(format, file)?;
-            rows.iter().try_for_each(|row| table.write(row))?;
-            table.finish()?.finish()?;
-        }
-        Output::report(text, self.report_on_stdout)
-    }
-
     fn write(self, rows: &[TradeRow], arguments: &Measure, yardsticks: &[Yardstick]) -> Result<(), Failure> {
         let (allowed, axes) = (&allowed(arguments)[..], Axes { x: arguments.x, y: arguments.y });
         let (machine, command) = (machine(), command());
@@ -176,33 +169,6 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }
     Ok(all)
-}
-
-/// Settings of a crowd unless told otherwise: a step and half of it, a tolerance.
-const CROWD: ([f64; 2], f64) = ([1e-2, 5e-3], 1e-6);
-
-/// `--crowd`: the figures of each scene's crowd.
-fn crowd(arguments: &Measure, seeds: usize, signals: &Signals) -> Result<(), Failure> {
-    let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
-    let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
-    opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
-    let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
-    refuse_shared(&outputs(arguments), &inputs)?;
-    let files = Files::open(arguments)?;
-    let given = ladder(arguments);
-    let (dt, tolerances) = (given.dt.unwrap_or(CROWD.0.to_vec()), given.tolerances.unwrap_or(vec![CROWD.1]));
-    let rungs = Ladder { methods: given.methods, dt: Some(dt), tolerances: Some(tolerances) }.rungs();
-    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let timeout = arguments.timeout.unwrap_or(f64::INFINITY);
-    let (mut text, mut rows) = (String::new(), Vec::new());
-    for opened in &opened {
-        let limits = (seeds as u64, timeout);
-        let found = measure::crowds(&opened.scene, &rungs, limits, jobs, &|| signals.check().is_ok());
-        let found = found.ok_or_else(|| signals.check().err().unwrap_or(Failure::Told))?;
-        text += &measure::crowd_report(&opened.key, opened.scene.duration, &found);
-        rows.extend(measure::crowd_rows(&opened.key, &found));
-    }
-    files.write_crowd(&text, &rows)
 }
 
 /// What the timings are of: processor, cores, system, version.

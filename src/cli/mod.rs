@@ -24,6 +24,7 @@ mod cast;
 mod certified;
 mod check;
 mod completions;
+mod crowd;
 mod defaults;
 mod failure;
 mod frames;

@@ -1,0 +1,55 @@
+//! What a file of states calls its columns.
+
+use super::rows::StateRow;
+use super::table::Row;
+
+/// How many columns there are: time, sphere, three of place, three of velocity.
+pub(super) const COLUMNS: usize = 8;
+
+/// What a file calls the columns `time,sphere,x,y,z,vx,vy,vz`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Columns {
+    /// In our order.
+    pub(super) names: [String; COLUMNS],
+}
+
+impl Default for Columns {
+    fn default() -> Columns {
+        Columns { names: std::array::from_fn(|k| StateRow::COLUMNS[k].into()) }
+    }
+}
+
+impl Columns {
+    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours. Where a row has all
+    /// spheres, `p#=x` says that `p0`, `p1`, … are their x.
+    ///
+    /// # Errors
+    /// A part without `=`, a name that is none of ours, one of ours named twice.
+    pub fn parse(text: &str) -> Result<Columns, String> {
+        let (mut columns, mut named) = (Columns::default(), [false; COLUMNS]);
+        for part in text.split(',') {
+            let pair = part.split_once('=').map(|(theirs, ours)| (theirs.trim(), ours.trim()));
+            let (theirs, ours) =
+                pair.filter(|pair| !pair.0.is_empty()).ok_or("must be THEIRS=OURS, such as t=time,px=x")?;
+            let k = StateRow::COLUMNS.iter().position(|name| *name == ours);
+            let k = k.ok_or_else(|| format!("{ours:?} is none of {}", StateRow::COLUMNS.join(",")))?;
+            if std::mem::replace(&mut named[k], true) {
+                return Err(format!("{ours:?} is named twice"));
+            }
+            columns.names[k] = theirs.into();
+        }
+        Ok(columns)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mapping_names_each_of_our_columns_once() {
+        for (text, word) in [("t", "THEIRS=OURS"), ("=time", "THEIRS"), ("t=when", "\"when\""), ("a=x,b=x", "twice")] {
+            assert!(Columns::parse(text).expect_err(text).contains(word), "{text}");
+        }
+    }
+}
