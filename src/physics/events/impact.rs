@@ -53,7 +53,9 @@ impl Mechanics {
                 self.break_rests(model, log, key)
             }
             Verdict::Rest(reason) => {
-                let until = self.trajectories.now + contact.bounce_series_duration(model);
+                // what was struck at this instant already comes back by other contacts: that is no bounce of a series
+                let now = self.trajectories.now;
+                let until = if since < now { now + contact.bounce_series_duration(model) } else { now };
                 self.rests.add(model, &self.trajectories, &contact, reason, until);
                 Ok(Changed::Nothing)
             }

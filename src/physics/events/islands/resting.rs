@@ -40,6 +40,8 @@ pub(super) struct RestingContact {
     pub(super) v_n: f64,
     /// Time (s) at which the island is solved again: end of a summed bounce series, or of a pause. No rest is told before.
     pub(super) settles_at: f64,
+    /// What has stopped its bounces while none of them was told, N s.
+    pub(super) untold: f64,
     /// What it carries.
     pub(super) load: Load,
     /// What bounces that were summed up have done by `settles_at`.
@@ -325,6 +327,7 @@ impl Rests {
             v_n: contact.v_n,
             settles_at,
             reason,
+            untold: self.held.get(&contact.key).map_or(0.0, |before| before.untold),
             load: Load::default(),
             rub: None,
         };
@@ -337,14 +340,14 @@ impl Rests {
         self.dirty.push(a);
     }
 
-    /// A contact rests no longer; returns whether its rest had been announced.
-    pub(super) fn drop(&mut self, key: Key) -> bool {
+    /// A contact rests no longer; returns what it was, if it did.
+    pub(super) fn drop(&mut self, key: Key) -> Option<RestingContact> {
         let (kind, a, b) = key;
         self.of[a].retain(|&other| other != key);
         if kind == Kind::Pair {
             self.of[b].retain(|&other| other != key);
         }
-        self.held.remove(&key).is_some_and(|held| held.announced)
+        self.held.remove(&key)
     }
 
     /// Has bounces that were summed up act on a contact when they are over.

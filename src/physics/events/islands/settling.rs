@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::equilibrium::{Settled, solve_island};
 use super::resting::{Curve, Island, IslandContact, Other, RestingContact, closed};
-use crate::physics::contact::{Class, Key, Kind};
+use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::events::changed::Changed;
 use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::bodies::Body;
@@ -46,11 +46,18 @@ impl Mechanics {
     }
 
     fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
-        if self.rests.drop(key) {
+        if let Some(held) = self.rests.drop(key) {
             let meeting = self.trajectories.contact_state(model, key);
-            let row = meeting.row(self.trajectories.now, Class::Release, 0.0, meeting.v_n);
-            log.contacts.push(row);
-            log.event(row);
+            let now = self.trajectories.now;
+            let untold = if held.announced { 0.0 } else { held.untold + held.load.given(now) };
+            if untold > 0.0 {
+                // its bounces were not over: what has stopped and carried it would stand nowhere
+                let stopped = ContactState { v_n: held.v_n, ..meeting };
+                tell(log, stopped.row(now, Class::Rest, untold, 0.0));
+            }
+            if held.announced || untold > 0.0 {
+                tell(log, meeting.row(now, Class::Release, 0.0, meeting.v_n));
+            }
         }
         self.set_free(model, key);
     }
@@ -326,13 +333,14 @@ impl Mechanics {
             let bounces = !held.announced && held.settles_at > self.trajectories.now;
             let struck = settled.struck[index] && !(bounces && is_a_bounce(model, &meeting, settled.impulses[index]));
             if !struck && (bounces || !begins) {
+                if settled.struck[index] {
+                    held.untold += settled.impulses[index];
+                }
                 continue;
             }
             meeting.v_n = if struck { settled.v_n[index] } else { held.v_n };
-            held.announced = true;
-            let row = meeting.row(self.trajectories.now, Class::Rest, settled.impulses[index], 0.0);
-            log.contacts.push(row);
-            log.event(row);
+            (held.announced, held.untold) = (true, 0.0);
+            tell(log, meeting.row(self.trajectories.now, Class::Rest, settled.impulses[index], 0.0));
         }
     }
 
@@ -366,6 +374,12 @@ impl Mechanics {
         );
         Stall { time: self.trajectories.now, kind: StallKind::RestingContact, reason }
     }
+}
+
+/// Tells the log of a rest that begins or ends.
+fn tell(log: &mut Log, row: Contact) {
+    log.contacts.push(row);
+    log.event(row);
 }
 
 /// Whether an impulse (N s) changes v_n by no more than one of the bounces that are summed up.
