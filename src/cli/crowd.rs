@@ -1,12 +1,14 @@
 //! `carom measure --crowd N`: figures of crowds beyond the horizon, at once or in parts.
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::Failure;
 use super::output::Output;
+use super::progress::{STEPS, progress_bar};
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
 use crate::export::{CrowdRow, Format, Row, Table, is_crowd_part, read_crowd_runs};
@@ -37,11 +39,20 @@ pub(super) fn crowd(arguments: &Measure, seeds: usize, ladder: Ladder, signals: 
         shard: arguments.shard.unwrap_or(Shard::WHOLE),
         jobs: arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1),
     };
+    let (wanted, done) = (opened.len() * plan.runs(), AtomicUsize::new(0));
+    let bar = progress_bar(wanted, "runs");
+    let advance = || {
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        bar.set_message(done.to_string());
+        bar.set_position((done as f64 / wanted as f64 * STEPS) as u64);
+    };
     let mut runs = Vec::new();
     for opened in &opened {
-        let found = measure::crowd_runs(&opened.key, &opened.scene, &plan, &|| signals.check().is_ok());
+        let subject = (opened.key.as_str(), &opened.scene);
+        let found = measure::crowd_runs(subject, &plan, &|| signals.check().is_ok(), &advance);
         runs.extend(found.ok_or_else(|| signals.check().err().unwrap_or(Failure::Told))?);
     }
+    bar.finish_and_clear();
     let placed = runs.iter().map(|run| PlacedRun { place: String::new(), run: run.clone() });
     let scenes = measure::gather(placed).map_err(|error| Failure::Failed(error.to_string()))?;
     match arguments.shard {

@@ -1,27 +1,19 @@
 //! `carom measure SCENE…`: what accuracy costs, as a table, a chart, CSV and a figure.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::thread;
-use std::time::Duration;
-
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::{Failure, note};
 use super::output::Output;
+use super::progress::{STEPS, progress_bar};
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
 use crate::export::{Format, Table, TradeNote, TradeRow, read_trade};
 use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::printable;
 use crate::scene::{self, Method, Opened};
-
-/// Steps of the progress bar: finer than any terminal shows.
-const STEPS: f64 = 1000.0;
-
-/// Time between two pictures of the progress bar: it counts seconds.
-const TICK: Duration = Duration::from_millis(250);
 
 pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
     refuse_shared(&outputs(arguments), &[])?;
@@ -86,7 +78,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
     let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY)).asking(arguments.error);
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let bar = progress_bar(sweep.wanted());
+    let bar = progress_bar(sweep.wanted(), "settings");
     let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
         bar.set_message(done.to_string());
         bar.set_position((share * STEPS) as u64);
@@ -102,21 +94,6 @@ fn endless(opened: &Opened, ladder: &Ladder) -> Option<String> {
     let shortest = ladder.rungs().into_iter().min_by(by_step)?;
     let warning = scene::endless(&opened.scene, shortest.settings(until), until)?;
     Some(format!("{}: {warning}", opened.key))
-}
-
-/// On stderr; indicatif draws nothing where that is no terminal.
-fn progress_bar(wanted: usize) -> ProgressBar {
-    let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-    if dumb || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let template =
-        format!("{{bar:32}} {{percent:>3}} %  {{msg}} of {wanted} settings, {{elapsed}} elapsed, {{eta}} to go");
-    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), ProgressDrawTarget::stderr());
-    let bar = ProgressStyle::with_template(&template).map(|style| bar.clone().with_style(style)).unwrap_or(bar);
-    bar.set_message("0");
-    bar.enable_steady_tick(TICK); // the time left goes on while a setting is measured
-    bar
 }
 
 /// Where the results go, opened before any work is done for nothing.

@@ -49,13 +49,31 @@ pub struct PlacedRun {
     pub run: CrowdRun,
 }
 
-/// Runs each setting from so many seeds, or a part of that. None if `go_on` returned false.
-pub fn crowd_runs(key: &str, scene: &Scene, plan: &CrowdPlan, go_on: GoOn) -> Option<Vec<CrowdRun>> {
-    let seeds = plan.seeds as usize;
-    let tasks: Vec<usize> = (0..plan.rungs.len() * seeds).filter(|task| plan.shard.has(*task)).collect();
+impl CrowdPlan {
+    /// The runs of a scene that are made: setting by setting, seed by seed.
+    fn tasks(&self) -> Vec<usize> {
+        (0..self.rungs.len() * self.seeds as usize).filter(|task| self.shard.has(*task)).collect()
+    }
+
+    /// How many runs of a scene are made.
+    pub fn runs(&self) -> usize {
+        self.tasks().len()
+    }
+}
+
+/// Runs each setting from so many seeds, or a part of that; `done` is called after each run, on its thread. None if `go_on`
+/// returned false.
+pub fn crowd_runs(
+    (key, scene): (&str, &Scene),
+    plan: &CrowdPlan,
+    go_on: GoOn,
+    done: &(dyn Fn() + Sync),
+) -> Option<Vec<CrowdRun>> {
+    let (seeds, tasks) = (plan.seeds as usize, plan.tasks());
     let runs = side_by_side(tasks.len(), plan.jobs, |index| {
         let (rung, seed) = (plan.rungs[tasks[index] / seeds], (tasks[index] % seeds) as u64 + 1);
         let ran = crowd_run(scene, rung, (seed, plan.budget), go_on)?;
+        done();
         Ok(CrowdRun {
             scene: key.into(),
             until: scene.duration,
@@ -74,7 +92,7 @@ pub fn crowd_runs(key: &str, scene: &Scene, plan: &CrowdPlan, go_on: GoOn) -> Op
 
 /// Runs each setting from so many seeds and gathers the means. None if `go_on` returned false.
 pub fn crowds(scene: &Scene, plan: &CrowdPlan, go_on: GoOn) -> Option<Vec<Crowd>> {
-    let runs = crowd_runs("", scene, plan, go_on)?;
+    let runs = crowd_runs(("", scene), plan, go_on, &|| ())?;
     let placed = runs.into_iter().map(|run| PlacedRun { place: String::new(), run });
     gather(placed).ok().map(|scenes| scenes.into_iter().flat_map(|scene| scene.crowds).collect())
 }
