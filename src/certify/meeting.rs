@@ -68,7 +68,7 @@ impl Shadow {
         (v - other.velocity(t)).dot((x - other.at(t)).unit())
     }
 
-    /// Brings two spheres together; none if they are held by each other and stay so.
+    /// Brings two spheres to where they meet: at once, if they touch already.
     pub(super) fn meet_pair(&mut self, row: &Contact) -> Result<(), Ending> {
         let (a, b) = (row.a, row.b);
         let [one, two] = [a, b].map(|i| self.bodies[i].now);

