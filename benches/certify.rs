@@ -10,7 +10,7 @@ use carom::physics::{Class, Kind, Method, Settings, Simulation};
 use carom::scene::{self, Scene};
 
 /// A gas that fills a tenth of its box: 5.24 m³ for a thousand spheres of radius 0.05 m.
-const GAS: &str = "Scene(name: \"gas\", contact: (restitution: 1, tangential: 1, rest_speed: 0), duration: 1.6, \
+const GAS: &str = "Scene(name: \"gas\", contact: (restitution: 1, tangential: 1, rest_speed: 0), duration: 0.6, \
     walls: [Room(min: (0, 0, 0), max: (1.737, 1.737, 1.737))], \
     spheres: [Gas(min: (0, 0, 0), max: (1.737, 1.737, 1.737), count: 1000, seed: 3, speed: 1, mass: 1, radius: 0.05)])";
 

@@ -12,6 +12,9 @@ use crate::physics::Kind;
 /// Pairs of bodies that are looked at without asking whether to go on, at most: some seconds.
 const MOST_AT_ONCE: u64 = 100_000_000;
 
+/// Part of a reach within which it is worth asking whether spheres that touch part: planes show it of all others.
+const NEARLY: f64 = 1e-6;
+
 /// Part of a distance that the quick look gives away for rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -107,7 +110,8 @@ impl Shadow {
         }
         let relative = one.relative(two, since);
         let way = way(&relative, t, radius, met);
-        if is_far(&way, radius) || self.parts([(i, one), (j, two)], &relative, way.overlap) {
+        let in_touch = || (way.x.length() - radius).abs() <= NEARLY * radius;
+        if is_far(&way, radius) || (in_touch() && self.parts([(i, one), (j, two)], &relative, way.overlap)) {
             return None;
         }
         let after = doubt(&way, &Shape::Point, radius)?;
