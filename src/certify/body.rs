@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::course::Course;
 use super::double::Double;
+use super::vector::Vector;
 use crate::physics::Kind;
 
 /// A sphere, its motion, and where `exact` has it.
@@ -11,11 +12,13 @@ use crate::physics::Kind;
 pub(super) struct Body {
     pub(super) mass: Double,
     pub(super) radius: Double,
+    /// Where it was at t = 0, m.
+    pub(super) start: Vector,
     /// Its motion since its last event, and before that.
     pub(super) now: Course,
     pub(super) before: Course,
     /// Acceleration in flight, m/s².
-    pub(super) pull: super::vector::Vector,
+    pub(super) pull: Vector,
     /// Walls whose faces hold it.
     pub(super) held: Vec<usize>,
     /// What it touches at the beginning of its motion.

@@ -22,6 +22,9 @@ pub struct Certificate {
     pub ending: Option<Ending>,
     /// Impacts, rests and releases that the shadow run has followed.
     pub events: u64,
+    /// Impacts of which `exact` alone says that they come before another one of the same sphere at the same time: by symmetry or
+    /// touch, where the law leaves the order open.
+    pub ties: u64,
     /// Pairs of bodies that were looked at to show that no other contact comes.
     pub looks: u64,
     growth: Growth,
@@ -115,7 +118,7 @@ impl Pursuit {
     fn nothing(self) -> Certificate {
         let ending = Some(Ending { time: 0.0, bodies: None, cause: Cause::Spent });
         let places = self.shadow.bodies.iter().map(|body| body.now.x.components()).collect();
-        Certificate { until: 0.0, error: 0.0, ending, events: 0, looks: 0, growth: Growth::default(), places }
+        Certificate { until: 0.0, error: 0.0, ending, events: 0, ties: 0, looks: 0, growth: Growth::default(), places }
     }
 
     fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
@@ -140,7 +143,8 @@ impl Pursuit {
         let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
         let ending = ending.map(|ending| Ending { time: until, ..ending });
         let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t);
-        (Certificate { until, error, ending, events, looks: shadow.looks, growth, places }, at_its_end)
+        let (ties, looks) = (shadow.ties, shadow.looks);
+        (Certificate { until, error, ending, events, ties, looks, growth, places }, at_its_end)
     }
 }
 

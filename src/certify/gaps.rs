@@ -6,11 +6,14 @@ use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::shadow::Shadow;
 use super::start::{Start, overlap};
-use super::vector::Vector;
+use super::support;
 use crate::physics::Kind;
 
 /// Pairs of bodies that are looked at without asking whether to go on, at most: some seconds.
 const MOST_AT_ONCE: u64 = 100_000_000;
+
+/// Part of a reach within which it is worth asking whether spheres that touch part: planes show it of all others.
+const NEARLY: f64 = 1e-6;
 
 /// Part of a distance that the quick look gives away for rounding.
 const ROUNDING: f64 = 1e-12;
@@ -32,19 +35,33 @@ fn is_far(way: &Way, radius: f64) -> bool {
 }
 
 impl Shadow {
-    /// Refuses if sphere `i` may touch anything from its last event to `t` (s), but for what it touches then.
-    pub(super) fn clear_until(&mut self, i: usize, t: Double, met: Option<(Kind, usize)>) -> Result<(), Ending> {
+    /// What else sphere `i` touches at `t` (s) besides `met`; refuses if it may touch anything before, from its last event on.
+    pub(super) fn clear_until(
+        &mut self,
+        i: usize,
+        t: Double,
+        met: Option<(Kind, usize)>,
+    ) -> Result<Vec<(Kind, usize)>, Ending> {
         self.looks += (self.bodies.len() + self.plates.len()) as u64;
         if self.looks > self.most_looks {
             return Err(Ending { time: self.bodies[i].now.t.value(), bodies: None, cause: Cause::Spent });
         }
-        let first = (0..self.plates.len())
-            .filter_map(|w| self.wall_doubt(i, w, t, met == Some((Kind::Wall, w))))
-            .chain((0..self.bodies.len()).filter(|&j| j != i).filter_map(|j| {
-                self.pair_doubt([(i, &self.bodies[i].now), (j, &self.bodies[j].now)], t, met == Some((Kind::Pair, j)))
-            }))
-            .reduce(earlier);
-        first.map_or(Ok(()), Err)
+        let (mut first, mut also) = (None, Vec::new());
+        let walls = (0..self.plates.len()).map(|w| (Kind::Wall, w));
+        let pairs = (0..self.bodies.len()).filter(|&j| j != i).map(|j| (Kind::Pair, j));
+        for with in walls.chain(pairs) {
+            let doubt = |ends: bool| match with {
+                (Kind::Wall, w) => self.wall_doubt(i, w, t, ends),
+                (Kind::Pair, j) => self.pair_doubt([(i, &self.bodies[i].now), (j, &self.bodies[j].now)], t, ends),
+            };
+            let Some(found) = doubt(met == Some(with)) else { continue };
+            if met != Some(with) && met.is_some() && self.touches(i, with, t) && doubt(true).is_none() {
+                also.push(with);
+            } else {
+                first = Some(first.map_or(found.clone(), |first| earlier(first, found)));
+            }
+        }
+        first.map_or(Ok(also), Err)
     }
 
     /// Refuses if sphere `i`, as it moves on, may touch another one that changed later than `i` did, before that change.
@@ -93,13 +110,25 @@ impl Shadow {
         }
         let relative = one.relative(two, since);
         let way = way(&relative, t, radius, met);
-        let stays = relative.v == Vector::default() && relative.a == Vector::default();
-        if is_far(&way, radius) || (stays && way.x.length() >= radius - way.overlap) {
+        let in_touch = || (way.x.length() - radius).abs() <= NEARLY * radius;
+        if is_far(&way, radius) || (in_touch() && self.parts([(i, one), (j, two)], &relative, way.overlap)) {
             return None;
         }
         let after = doubt(&way, &Shape::Point, radius)?;
         let bodies = Some((Kind::Pair, i.min(j), i.max(j)));
         Some(Ending { time: since.value() + after, bodies, cause: Cause::Touching })
+    }
+
+    /// Whether two spheres, `relative` to each other, touch no more than by `overlap` (m) and come no closer: without acceleration, and
+    /// not approaching as it begins.
+    fn parts(&self, [(i, one), (j, two)]: [(usize, &Course); 2], relative: &Course, overlap: f64) -> bool {
+        let small = Double::from(support::ROUNDING);
+        let at = |course: &Course| course.velocity(relative.t).length();
+        let speed = small * (at(one) + at(two));
+        let gap = (relative.x.length() - self.bodies[i].radius - self.bodies[j].radius).value();
+        relative.a.length() <= small * (one.a.length() + two.a.length())
+            && gap >= -overlap
+            && (relative.v.length() <= speed || relative.x.unit().dot(relative.v) >= -speed)
     }
 
     fn wall_doubt(&self, i: usize, w: usize, t: Double, met: bool) -> Option<Ending> {

@@ -10,7 +10,7 @@ use super::vector::Vector;
 pub(super) const AT_LOAD: f64 = 1e-9;
 
 /// Gap that counts as touching after an event, in radii: the shadow has it to 1e-30.
-const AT_EVENT: f64 = 1e-20;
+pub(super) const AT_EVENT: f64 = 1e-20;
 
 /// How a course begins that is in touch with a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,36 +1,81 @@
-//! What faces that hold a sphere leave of its velocity or acceleration u: w = u + Σ λ n with λ ≥ 0, n·w ≥ 0, and λ = 0
-//! where n·w > 0. Every set of faces is tried; with independent normals one alone fits.
+//! What contacts that hold an island leave of its spheres' velocities or accelerations u: w = u + Σ λ J with λ ≥ 0,
+//! rate ≥ 0, and λ = 0 where rate > 0, where J pushes both bodies of a contact apart by their masses, and the rate is n · (w_a − w_b) and
+//! what curvature adds. Every set of contacts is tried; w is the same for all that fit.
 
 use super::double::Double;
 use super::vector::Vector;
 
-/// Most faces that hold one sphere here: more normals depend on each other.
-pub(super) const MOST_FACES: usize = 3;
+/// Most contacts that hold one island here: a thousand sets.
+pub(super) const MOST_CONTACTS: usize = 10;
 
 /// A part of |u| that stands for rounding: a thousand times what the sums here round.
 pub(super) const ROUNDING: f64 = 1e-27;
 
-/// What is left of `u`, and by face whether it stays closed; none if no set of faces fits.
-pub(super) fn held(u: Vector, normals: &[Vector]) -> Option<(Vector, Vec<bool>)> {
-    let small = Double::from(ROUNDING) * u.length();
-    (0..1_u32 << normals.len()).find_map(|set| {
-        let chosen: Vec<Vector> = (0..normals.len()).filter(|k| set >> k & 1 == 1).map(|k| normals[k]).collect();
-        let forces = forces(u, &chosen)?;
-        let w = chosen.iter().zip(&forces).fold(u, |sum, (n, force)| sum + *n * *force);
-        let fits = forces.iter().all(|force| *force >= -small) && normals.iter().all(|n| n.dot(w) >= -small);
-        fits.then(|| (w, normals.iter().map(|n| n.dot(w) <= small).collect()))
+/// A contact of an island.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Prop {
+    /// Index in the island.
+    pub(super) body: usize,
+    /// The second sphere; none if it is a wall.
+    pub(super) other: Option<usize>,
+    /// Unit, towards `body`.
+    pub(super) normal: Vector,
+    /// What the rate has besides n · (w_a − w_b).
+    pub(super) bias: Double,
+}
+
+impl Prop {
+    fn rate(&self, w: &[Vector]) -> Double {
+        let relative = self.other.map_or(w[self.body], |other| w[self.body] - w[other]);
+        self.normal.dot(relative) + self.bias
+    }
+
+    /// What a unit force at `self` does to the rate of `of`.
+    fn acts(&self, of: &Prop, masses: &[Double]) -> Double {
+        let sides = |prop: &Prop| [(Some(prop.body), prop.normal), (prop.other, -prop.normal)];
+        let mut sum = Double::ZERO;
+        for (one, push) in sides(self) {
+            for (two, normal) in sides(of) {
+                if let Some(body) = one.filter(|_| one == two) {
+                    sum = sum + push.dot(normal) / masses[body];
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// What is left of `u`, by sphere, and by contact whether it stays closed; none if no set of contacts fits.
+pub(super) fn held(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<(Vec<Vector>, Vec<bool>)> {
+    let largest = u.iter().map(|u| u.length()).chain(props.iter().map(|prop| prop.bias.abs()));
+    let small = Double::from(ROUNDING) * largest.fold(Double::ZERO, |most, size| if size > most { size } else { most });
+    (0..1_u32 << props.len()).find_map(|set| {
+        let chosen: Vec<Prop> = (0..props.len()).filter(|k| set >> k & 1 == 1).map(|k| props[k]).collect();
+        let forces = forces(u, masses, &chosen)?;
+        let mut w = u.to_vec();
+        for (prop, force) in chosen.iter().zip(&forces) {
+            w[prop.body] = w[prop.body] + prop.normal * (*force / masses[prop.body]);
+            if let Some(other) = prop.other {
+                w[other] = w[other] - prop.normal * (*force / masses[other]);
+            }
+        }
+        let pushes = |(force, prop): (&Double, &Prop)| *force / masses[prop.body] >= -small;
+        let fits = forces.iter().zip(&chosen).all(pushes) && props.iter().all(|prop| prop.rate(&w) >= -small);
+        fits.then(|| (w.clone(), props.iter().map(|prop| prop.rate(&w) <= small).collect()))
     })
 }
 
-/// The forces (per mass) of faces that all stay closed, by elimination in the matrix of their normals' products; none if
-/// these depend on each other.
-fn forces(u: Vector, normals: &[Vector]) -> Option<Vec<Double>> {
-    let count = normals.len();
-    let mut rows: Vec<Vec<Double>> =
-        normals.iter().map(|n| normals.iter().map(|other| n.dot(*other)).chain([-n.dot(u)]).collect()).collect();
+/// The forces of contacts that all stay closed, by elimination; none if their normals depend on each other.
+fn forces(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<Vec<Double>> {
+    let count = props.len();
+    let mut rows: Vec<Vec<Double>> = props
+        .iter()
+        .map(|prop| props.iter().map(|other| other.acts(prop, masses)).chain([-prop.rate(u)]).collect())
+        .collect();
+    let whole: Vec<Double> = (0..count).map(|k| rows[k][k]).collect();
     for k in 0..count {
         // of a matrix of products every pivot is the square of a distance: none, where normals depend on each other
-        if rows[k][k] <= Double::from(1e-12) {
+        if rows[k][k] <= Double::from(1e-12) * whole[k] {
             return None;
         }
         let pivot = rows[k].clone();

@@ -241,16 +241,17 @@ pub(super) struct Measure {
     /// The error up: position, time (of the first impacts), energy or depth (of overlap)
     #[arg(long, value_name = "ERROR", default_value = "position", value_parser = error_axis())]
     pub(super) y: ErrorAxis,
-    /// Processor time after which a setting is given up and listed as failed, s [default: never]
+    /// Processor time after which a setting is given up and listed as failed, s [default: never; of a crowd a minute of counted
+    /// work a run]
     #[arg(long, value_name = "S", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) timeout: Option<f64>,
     /// The horizon is where the certified error of exact exceeds this, m
     #[arg(long, value_name = "E", default_value = "1e-6", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) error: f64,
     /// Judge a crowd beyond its horizon instead: means and standard errors over N runs that begin a hair aside
-    #[arg(long, value_name = "N", value_parser = numbers::count, conflicts_with_all = ["shard", "merge", "svg"])]
+    #[arg(long, value_name = "N", value_parser = numbers::count, conflicts_with_all = ["merge", "svg"])]
     pub(super) crowd: Option<usize>,
-    /// Measure only part I of N, I from 1
+    /// Measure only part I of N, I from 1; of a crowd the table has its runs
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     pub(super) shard: Option<Shard>,
     /// Join the CSV files of parts instead of measuring
@@ -261,7 +262,7 @@ pub(super) struct Measure {
 
 const JUDGE: &str = "\
 A FILE has the columns time,sphere,x,y,z,vx,vy,vz (s, m, m/s), separated by commas, semicolons or tabs, in the order of
-time; velocities may be missing, and `sphere` where there is one. docs/measure.md tells what each figure means.
+time; velocities may be missing, and `sphere` where there is one; or time,x0,y0,z0,x1,… with all spheres in a row. docs/measure.md tells what each figure means.
 Exit status: 0 everything passes, 1 something fails, 2 a file cannot be read.";
 
 /// Mark trajectories of any program.
@@ -280,12 +281,15 @@ pub(super) struct Judge {
     /// Compare up to this time, s [default: the scene's duration]
     #[arg(long, value_name = "T", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) until: Option<f64>,
-    /// What the files call our columns [default: as we do]
+    /// What the files call our columns [default: as we do]; # stands for a sphere's number, as in p#=x
     #[arg(long, value_name = "THEIRS=OURS,…", value_parser = Columns::parse)]
     pub(super) columns: Option<Columns>,
     /// Hold them against this trajectory instead of exact
     #[arg(long, value_name = "FILE2", value_hint = ValueHint::FilePath)]
     pub(super) against: Option<OsString>,
+    /// Compare figures of a crowd with this table, which `carom measure SCENE --crowd N --csv TABLE` has made
+    #[arg(long, value_name = "TABLE", value_hint = ValueHint::FilePath)]
+    pub(super) crowd: Option<OsString>,
     /// The steps with which one program made the files, s, in their order: fits the order of convergence
     #[arg(long, value_name = "S,…", value_delimiter = ',', value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) dt: Vec<f64>,

@@ -4,6 +4,7 @@ use super::arguments::Solver;
 use super::failure::Failure;
 use super::signals::Signals;
 use crate::certify::{Certificate, certify};
+use crate::format;
 use crate::scene::{Method, Scene, Settings};
 
 /// That a run shall be certified, and can be.
@@ -44,4 +45,15 @@ impl Certified {
 /// What the closing line says of a certificate.
 pub(super) fn words(certificate: &Certificate) -> String {
     format!(" certified_until={:?} error={:?}", certificate.until, certificate.error)
+}
+
+/// What must be said of a certificate besides: where it ends, and what it has taken from `exact`.
+pub(super) fn notes(certificate: &Certificate) -> Vec<String> {
+    let ties = (certificate.ties > 0).then(|| {
+        format!(
+            "{} at the same time as another of the same sphere: the law leaves their order open, and it is that of exact",
+            format::counted(certificate.ties, "impact")
+        )
+    });
+    certificate.ending.iter().map(ToString::to_string).chain(ties).collect()
 }

@@ -12,14 +12,21 @@ use super::failure::Failure;
 use super::output::Output;
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
-use crate::export::{Columns, Format, MarkRow, States, Table};
-use crate::marks::{self, Exam, Mark, Marked, NoMark, Source};
+use crate::export::Columns;
+use crate::export::{Format, MarkRow, States, Table, read_crowd};
+use crate::marks::{self, Exam, Mark, Marked, NoMark, Norm, Source};
 use crate::printable;
 use crate::scene;
 
 pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure> {
     let outputs = [("--json", arguments.json.as_ref()), ("--svg", arguments.svg.as_ref())];
-    let named = arguments.files.iter().chain(&arguments.against).filter(|word| *word != "-").map(PathBuf::from);
+    let named = arguments
+        .files
+        .iter()
+        .chain(&arguments.against)
+        .chain(&arguments.crowd)
+        .filter(|word| *word != "-")
+        .map(PathBuf::from);
     let paths: Vec<PathBuf> = named.collect();
     let inputs: Vec<(&str, &Path)> = paths.iter().map(|path| ("the trajectory", path.as_path())).collect();
     refuse_shared(&outputs, &inputs)?;
@@ -27,11 +34,12 @@ pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure>
     let opened = scene::open(&arguments.scene).map_err(|error| Failure::Usage(error.to_string()))?;
     opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
     from_its_start(&opened.scene, "judge")?;
+    let norm = arguments.crowd.as_ref().map(|table| norm(table, &opened.key)).transpose()?;
     let files = Files::open(arguments)?;
     let go_on = || signals.check().is_ok();
     let until = arguments.until.unwrap_or(opened.scene.duration);
     let interrupted = || signals.check().err().unwrap_or(Failure::Told);
-    let exam = Exam::new(&opened.scene, until, arguments.tolerance, &go_on).ok_or_else(interrupted)?;
+    let exam = Exam::new(&opened.scene, until, arguments.tolerance, &go_on).ok_or_else(interrupted)?.beside(norm);
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let marked = marks::mark_all(arguments.files.len(), jobs, |index| {
         let word = &arguments.files[index];
@@ -44,6 +52,17 @@ pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure>
     }
     let fails = marked.iter().any(|marked| marked.mark.as_ref().is_ok_and(|mark| mark.passes == Some(false)));
     if fails { Err(Failure::Told) } else { Ok(()) }
+}
+
+/// What the table of a crowd says of a scene.
+fn norm(table: &OsStr, key: &str) -> Result<Norm, Failure> {
+    let name = printable::name(table);
+    let text = scene::contents(Path::new(table), "the table of a crowd").map_err(|message| format!(" {message}"));
+    let rows = text.and_then(|text| read_crowd(text.as_slice()).map_err(|error| error.to_string()));
+    let rows = rows.map_err(|error| Failure::Usage(format!("{name}:{error}")))?;
+    let lacks =
+        || format!("{name}: no setting of {key} is there that others are held against; make it by measure --crowd");
+    Norm::of(rows.iter().map(|(_, row)| row), key).ok_or_else(|| Failure::Usage(lacks()))
 }
 
 /// Refuses steps that are not one for each file, and standard input read twice.

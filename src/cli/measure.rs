@@ -1,34 +1,29 @@
 //! `carom measure SCENE…`: what accuracy costs, as a table, a chart, CSV and a figure.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::thread;
-use std::time::Duration;
-
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::{Failure, note};
 use super::output::Output;
+use super::progress::{STEPS, progress_bar};
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
-use crate::export::{CrowdRow, Format, Table, TradeNote, TradeRow, read_trade};
+use crate::export::{Format, Table, TradeNote, TradeRow, read_trade};
 use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::printable;
 use crate::scene::{self, Method, Opened};
-
-/// Steps of the progress bar: finer than any terminal shows.
-const STEPS: f64 = 1000.0;
-
-/// Time between two pictures of the progress bar: it counts seconds.
-const TICK: Duration = Duration::from_millis(250);
 
 pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
     refuse_shared(&outputs(arguments), &[])?;
     let merged: Vec<_> = arguments.merge.iter().map(|path| ("the part", path.as_path())).collect();
     refuse_shared(&outputs(arguments), &merged)?;
     if let Some(seeds) = arguments.crowd {
-        return crowd(arguments, seeds, signals);
+        return super::crowd::crowd(arguments, seeds, ladder(arguments), signals);
+    }
+    if super::crowd::are_parts(&arguments.merge) {
+        return super::crowd::merge(arguments);
     }
     let files = Files::open(arguments)?;
     if !arguments.merge.is_empty() {
@@ -83,7 +78,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
     let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY)).asking(arguments.error);
     let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let bar = progress_bar(sweep.wanted());
+    let bar = progress_bar(sweep.wanted(), "settings");
     let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
         bar.set_message(done.to_string());
         bar.set_position((share * STEPS) as u64);
@@ -101,21 +96,6 @@ fn endless(opened: &Opened, ladder: &Ladder) -> Option<String> {
     Some(format!("{}: {warning}", opened.key))
 }
 
-/// On stderr; indicatif draws nothing where that is no terminal.
-fn progress_bar(wanted: usize) -> ProgressBar {
-    let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-    if dumb || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let template =
-        format!("{{bar:32}} {{percent:>3}} %  {{msg}} of {wanted} settings, {{elapsed}} elapsed, {{eta}} to go");
-    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), ProgressDrawTarget::stderr());
-    let bar = ProgressStyle::with_template(&template).map(|style| bar.clone().with_style(style)).unwrap_or(bar);
-    bar.set_message("0");
-    bar.enable_steady_tick(TICK); // the time left goes on while a setting is measured
-    bar
-}
-
 /// Where the results go, opened before any work is done for nothing.
 struct Files {
     csv: Option<Output>,
@@ -131,16 +111,6 @@ impl Files {
         let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
         let (csv, svg, json) = (open(&arguments.csv)?, open(&arguments.svg)?, open(&arguments.json)?);
         Ok(Files { csv, svg, json, report_on_stdout: !taken })
-    }
-
-    fn write_crowd(self, text: &str, rows: &[CrowdRow]) -> Result<(), Failure> {
-        for (format, file) in [(Format::Csv, self.csv), (Format::JsonLines, self.json)] {
-            let Some(file) = file else { continue };
-            let mut table = Table::new::<CrowdRow>(format, file)?;
-            rows.iter().try_for_each(|row| table.write(row))?;
-            table.finish()?.finish()?;
-        }
-        Output::report(text, self.report_on_stdout)
     }
 
     fn write(self, rows: &[TradeRow], arguments: &Measure, yardsticks: &[Yardstick]) -> Result<(), Failure> {
@@ -176,33 +146,6 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }
     Ok(all)
-}
-
-/// Settings of a crowd unless told otherwise: a step and half of it, a tolerance.
-const CROWD: ([f64; 2], f64) = ([1e-2, 5e-3], 1e-6);
-
-/// `--crowd`: the figures of each scene's crowd.
-fn crowd(arguments: &Measure, seeds: usize, signals: &Signals) -> Result<(), Failure> {
-    let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
-    let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
-    opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
-    let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
-    refuse_shared(&outputs(arguments), &inputs)?;
-    let files = Files::open(arguments)?;
-    let given = ladder(arguments);
-    let (dt, tolerances) = (given.dt.unwrap_or(CROWD.0.to_vec()), given.tolerances.unwrap_or(vec![CROWD.1]));
-    let rungs = Ladder { methods: given.methods, dt: Some(dt), tolerances: Some(tolerances) }.rungs();
-    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let timeout = arguments.timeout.unwrap_or(f64::INFINITY);
-    let (mut text, mut rows) = (String::new(), Vec::new());
-    for opened in &opened {
-        let limits = (seeds as u64, timeout);
-        let found = measure::crowds(&opened.scene, &rungs, limits, jobs, &|| signals.check().is_ok());
-        let found = found.ok_or_else(|| signals.check().err().unwrap_or(Failure::Told))?;
-        text += &measure::crowd_report(&opened.key, opened.scene.duration, &found);
-        rows.extend(measure::crowd_rows(&opened.key, &found));
-    }
-    files.write_crowd(&text, &rows)
 }
 
 /// What the timings are of: processor, cores, system, version.

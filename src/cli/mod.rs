@@ -9,6 +9,7 @@
 //! | `signals` | INT, TERM and HUP as exit codes |
 //! | `output` | standard output and files that are replaced as a whole |
 //! | `jury` | what watches and judges a run of `carom run` |
+//! | `progress` | how far work is that may take minutes |
 //! | `place` | which file a word leads to |
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
@@ -24,6 +25,7 @@ mod cast;
 mod certified;
 mod check;
 mod completions;
+mod crowd;
 mod defaults;
 mod failure;
 mod frames;
@@ -38,6 +40,7 @@ mod numbers;
 mod output;
 mod place;
 mod play;
+mod progress;
 mod record;
 mod render;
 mod replay;

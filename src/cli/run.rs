@@ -157,7 +157,7 @@ impl Recorder<'_> {
         }
         unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         self.jury.sentences().iter().for_each(|sentence| note(sentence));
-        certificate.iter().flat_map(|certificate| &certificate.ending).for_each(|ending| note(&ending.to_string()));
+        certificate.iter().flat_map(certified::notes).for_each(|words| note(&words));
         if let Some(stall) = &stall {
             note(&stall.reason);
         }

@@ -1,4 +1,4 @@
-//! What the columns of a file of states are called.
+//! What a file of states calls its columns.
 
 use std::fmt;
 
@@ -10,11 +10,14 @@ pub(super) const COLUMNS: usize = 8;
 
 /// What a file calls the columns `time,sphere,x,y,z,vx,vy,vz`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Columns(pub(super) [String; COLUMNS]);
+pub struct Columns {
+    /// In our order.
+    pub(super) names: [String; COLUMNS],
+}
 
 impl Default for Columns {
     fn default() -> Columns {
-        Columns(std::array::from_fn(|k| StateRow::COLUMNS[k].into()))
+        Columns { names: std::array::from_fn(|k| StateRow::COLUMNS[k].into()) }
     }
 }
 
@@ -42,7 +45,8 @@ impl fmt::Display for ColumnsError {
 impl std::error::Error for ColumnsError {}
 
 impl Columns {
-    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours.
+    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours. Where a row has all
+    /// spheres, `p#=x` says that `p0`, `p1`, … are their x.
     ///
     /// # Errors
     /// A part without `=`, a name that is none of ours, one of ours named twice.
@@ -56,7 +60,7 @@ impl Columns {
             if std::mem::replace(&mut named[k], true) {
                 return Err(ColumnsError::Twice(ours.into()));
             }
-            columns.0[k] = theirs.into();
+            columns.names[k] = theirs.into();
         }
         Ok(columns)
     }

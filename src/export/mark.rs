@@ -59,6 +59,12 @@ pub struct MarkRow {
     pub energy_rise: Option<f64>,
     /// Largest |E − E_exact|, J.
     pub energy_error: Option<f64>,
+    /// Momentum of all spheres at the first row, kg m/s.
+    pub momentum_start: Option<[f64; 3]>,
+    /// Momentum of all spheres at the last row, kg m/s.
+    pub momentum_end: Option<[f64; 3]>,
+    /// Largest |p − p_exact|, kg m/s.
+    pub momentum_off: Option<f64>,
     /// Largest momentum that an impact of a pair by itself makes or loses, as a part of what it exchanges.
     pub momentum_error: Option<f64>,
     /// When a velocity first changes without a contact, s.
@@ -67,8 +73,33 @@ pub struct MarkRow {
     pub mistake: Option<String>,
     /// In how many cases it was seen, and of how many.
     pub mistake_seen: Option<[u64; 2]>,
+    /// Figures of a crowd beside those of many runs; empty if it is held against none.
+    pub crowd: Vec<CrowdMark>,
     /// Times, s, and the largest errors of the rows around them, m.
     pub errors: Vec<(f64, f64)>,
+}
+
+/// A figure of a crowd beside that of many runs. Nothing: one of them does not tell.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct CrowdMark {
+    /// What it is.
+    pub figure: String,
+    /// Its unit; empty if it has none.
+    pub unit: String,
+    /// Of the trajectory.
+    pub value: Option<f64>,
+    /// Mean of the runs.
+    pub mean: Option<f64>,
+    /// Standard deviation of a run.
+    pub deviation: Option<f64>,
+    /// How many runs.
+    pub seeds: Option<u64>,
+    /// The setting that made them.
+    pub by: Option<String>,
+    /// By how many deviations of one more run the trajectory is from the mean.
+    pub apart: Option<f64>,
+    /// Whether that is no more than three.
+    pub agrees: Option<bool>,
 }
 
 impl Row for MarkRow {

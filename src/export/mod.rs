@@ -6,8 +6,9 @@
 //! |---|---|
 //! | `table` | what a row is, and a table of them under way |
 //! | `rows` | a state, an event |
-//! | `states`, `columns` | states of any program, read back; what a file calls its columns |
-//! | `crowd` | a figure of a crowd |
+//! | `columns` | what a file calls its columns |
+//! | `states`, `wide` | states of any program, read back; with all spheres in a row |
+//! | `crowd` | a figure of a crowd, and a run of it |
 //! | `mark` | a trajectory marked |
 //! | `trade`, `note` | a setting measured on a scene, and reasons to doubt its figures |
 
@@ -19,10 +20,11 @@ mod rows;
 mod states;
 mod table;
 mod trade;
+mod wide;
 
 pub use columns::{Columns, ColumnsError};
-pub use crowd::CrowdRow;
-pub use mark::MarkRow;
+pub use crowd::{CrowdRow, CrowdRun, FIGURES, RESIDUALS, is_crowd_part, read_crowd, read_crowd_runs};
+pub use mark::{CrowdMark, MarkRow};
 pub use note::Note;
 pub use rows::{EventRow, StateRow};
 pub use states::{Moment, States};

@@ -8,10 +8,12 @@ use super::columns::{COLUMNS, Columns};
 use super::rows::StateRow;
 use super::table::Row;
 use super::trade::{CELL, ReadError, explain};
+use super::wide::{Wide, wide};
 use crate::printable;
 
-/// Longest line that is read, bytes: a file without line ends must not fill the memory.
-const LINE: usize = 1 << 16;
+/// Longest line that is read, bytes, and more for each sphere, whose six numbers may stand in it: a file without line ends must not
+/// fill the memory.
+const LINE: (usize, usize) = (1 << 16, 6 * 32);
 
 /// What stands between two cells: the first of these that comes most often in the first line.
 const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
@@ -36,11 +38,15 @@ pub struct States<R: Read> {
     record: csv::StringRecord,
     /// Which cell of a row holds each of our columns.
     cells: [Option<usize>; COLUMNS],
+    /// The same, if a row has all spheres.
+    wide: Option<Wide>,
     /// Cells of a row.
     width: usize,
     spheres: usize,
     /// The first row of the next moment.
     ahead: Option<Found>,
+    /// The next moment, if a row has all spheres.
+    next: Option<Moment>,
     last: Option<f64>,
 }
 
@@ -55,12 +61,14 @@ struct Found {
 }
 
 impl<R: Read> States<R> {
-    /// Reads the first line. The file has rows of so many spheres; without a column `sphere` of one.
+    /// Reads the first line. The file has rows of so many spheres; without a column `sphere` of one, or of all in columns that are
+    /// numbered.
     ///
     /// # Errors
     /// A reader that fails, an empty file, a column that is missing.
     pub fn new(reader: R, columns: &Columns, spheres: usize) -> Result<States<R>, ReadError> {
-        let mut lines = Lines { inner: BufReader::new(reader), length: 0 };
+        let most = LINE.0 + LINE.1.saturating_mul(spheres);
+        let mut lines = Lines { inner: BufReader::new(reader), length: 0, most };
         let first = lines.inner.fill_buf().map_err(|error| ReadError(format!(" {}", printable::cause(&error))))?;
         let first = first.split(|byte| *byte == b'\n').next().unwrap_or_default();
         let count = |delimiter: u8| first.iter().filter(|byte| **byte == delimiter).count();
@@ -71,27 +79,41 @@ impl<R: Read> States<R> {
             csv,
             record: csv::StringRecord::new(),
             cells: [None; COLUMNS],
+            wide: None,
             width: 0,
             spheres,
             ahead: None,
+            next: None,
             last: None,
         };
         states.header(columns)?;
-        states.ahead = states.row()?;
-        match states.ahead {
-            Some(_) => Ok(states),
-            None => Err(ReadError("2: the file ends after its column names; wanted are rows".into())),
+        match states.wide.take() {
+            Some(wide) => {
+                states.next = states.wide_row(&wide)?;
+                states.wide = Some(wide);
+            }
+            None => states.ahead = states.row()?,
+        }
+        match (&states.ahead, &states.next) {
+            (None, None) => Err(ReadError("2: the file ends after its column names; wanted are rows".into())),
+            _ => Ok(states),
         }
     }
 
     fn header(&mut self, columns: &Columns) -> Result<(), ReadError> {
-        let ours = || columns.0.join(",");
+        let ours = || columns.names.join(",");
         if !self.csv.read_record(&mut self.record).map_err(|error| ReadError(explain(&error)))? {
             return Err(ReadError(format!("1: the file is empty; wanted are rows under the names {}", ours())));
         }
         self.width = self.record.len();
-        for (k, name) in columns.0.iter().enumerate() {
+        for (k, name) in columns.names.iter().enumerate() {
             self.cells[k] = self.record.iter().position(|cell| cell == name);
+        }
+        if self.cells[1].is_none() && self.cells[2].is_none() {
+            self.wide = wide(&self.record, &columns.names, self.spheres)?;
+            if self.wide.is_some() {
+                return Ok(());
+            }
         }
         let moves = self.cells[5..].iter().any(Option::is_some);
         let needed = |k: usize| match k {
@@ -103,7 +125,7 @@ impl<R: Read> States<R> {
             let found = self.record.iter().collect::<Vec<_>>().join(",");
             return Err(ReadError(format!(
                 "1: there is no column {}; the first line is \"{}\"; say with --columns what the file calls {}",
-                columns.0[k],
+                columns.names[k],
                 printable::shortened(&found, CELL),
                 StateRow::COLUMNS[k],
             )));
@@ -116,15 +138,15 @@ impl<R: Read> States<R> {
     /// # Errors
     /// A row that is none, a time that goes back, a sphere that is missing at a time or comes twice.
     pub fn moment(&mut self) -> Result<Option<Moment>, ReadError> {
-        let Some(first) = self.ahead.take() else { return Ok(None) };
-        if self.last.is_some_and(|last| first.time < last) {
-            let last = self.last.unwrap_or_default();
-            return Err(ReadError(format!(
-                "{}: time is {:?} after {last:?}; wanted are rows in the order of time",
-                first.line, first.time
-            )));
+        if let Some(wide) = self.wide.take() {
+            let Some(moment) = self.next.take() else { return Ok(None) };
+            self.in_order(moment.line, moment.time)?;
+            self.next = self.wide_row(&wide)?;
+            self.wide = Some(wide);
+            return Ok(Some(moment));
         }
-        self.last = Some(first.time);
+        let Some(first) = self.ahead.take() else { return Ok(None) };
+        self.in_order(first.line, first.time)?;
         let moves = self.cells[5].is_some();
         let mut moment = Moment { time: first.time, line: first.line, ..Moment::default() };
         moment.x.resize(self.spheres, DVec3::NAN);
@@ -152,31 +174,58 @@ impl<R: Read> States<R> {
         }
     }
 
+    fn in_order(&mut self, line: u64, time: f64) -> Result<(), ReadError> {
+        match self.last.replace(time).filter(|last| time < *last) {
+            Some(last) => {
+                Err(ReadError(format!("{line}: time is {time:?} after {last:?}; wanted are rows in the order of time")))
+            }
+            None => Ok(()),
+        }
+    }
+
     fn lacks(&self, moment: &Moment, sphere: usize) -> ReadError {
         let (line, time) = (moment.line, moment.time);
         let end = if self.ahead.is_none() { ", where the file ends" } else { "" };
         ReadError(format!("{line}: there is no row of sphere {sphere} at the time {time:?}{end}"))
     }
 
-    fn row(&mut self) -> Result<Option<Found>, ReadError> {
+    /// Reads a row; its line, none at the end of the file.
+    fn cells(&mut self) -> Result<Option<u64>, ReadError> {
         let more = self.csv.read_record(&mut self.record);
         if !more.map_err(|error| ReadError(self.explained(&error)))? {
             return Ok(None);
         }
-        let line = self.line();
-        if self.record.len() != self.width {
-            let found = self.record.len();
-            return Err(ReadError(format!("{line}: {found} cells, where {} are wanted", self.width)));
+        let (line, found) = (self.line(), self.record.len());
+        match found == self.width {
+            true => Ok(Some(line)),
+            false => Err(ReadError(format!("{line}: {found} cells, where {} are wanted", self.width))),
         }
+    }
+
+    /// A row of all spheres.
+    fn wide_row(&mut self, wide: &Wide) -> Result<Option<Moment>, ReadError> {
+        let Some(line) = self.cells()? else { return Ok(None) };
+        let time = in_time(line, self.finite(line, wide.time, StateRow::COLUMNS[0])?)?;
+        let all = |cells: &[[usize; 3]], columns: &[&str]| -> Result<Vec<DVec3>, ReadError> {
+            let of = |cells: &[usize; 3]| -> Result<DVec3, ReadError> {
+                let number = |axis: usize| self.finite(line, cells[axis], columns[axis]);
+                Ok(DVec3::new(number(0)?, number(1)?, number(2)?))
+            };
+            cells.iter().map(of).collect()
+        };
+        let (x, v) = (all(&wide.places, &StateRow::COLUMNS[2..])?, all(&wide.velocities, &StateRow::COLUMNS[5..])?);
+        Ok(Some(Moment { time, line, x, v }))
+    }
+
+    fn row(&mut self) -> Result<Option<Found>, ReadError> {
+        let Some(line) = self.cells()? else { return Ok(None) };
         let sphere = self.sphere(line)?;
         let mut values = [0.0; COLUMNS];
         for (k, value) in values.iter_mut().enumerate().filter(|(k, _)| *k != 1) {
             *value = self.number(line, k)?;
         }
         let [time, _, x, y, z, vx, vy, vz] = values;
-        if time < 0.0 {
-            return Err(ReadError(format!("{line}: time is {time:?}; wanted is a number from 0")));
-        }
+        let time = in_time(line, time)?;
         Ok(Some(Found { line, time, sphere, x: DVec3::new(x, y, z), v: DVec3::new(vx, vy, vz) }))
     }
 
@@ -211,13 +260,16 @@ impl<R: Read> States<R> {
 
     /// The number of our column `k`; 0 if the file has none.
     fn number(&self, line: u64, k: usize) -> Result<f64, ReadError> {
-        let Some(index) = self.cells[k] else { return Ok(0.0) };
+        self.cells[k].map_or(Ok(0.0), |index| self.finite(line, index, StateRow::COLUMNS[k]))
+    }
+
+    /// The number of a cell that holds our column `name`.
+    fn finite(&self, line: u64, index: usize, name: &str) -> Result<f64, ReadError> {
         let cell = self.record.get(index).unwrap_or_default();
         match cell.parse::<f64>().ok().filter(|number| number.is_finite()) {
             Some(number) => Ok(number),
             None => Err(ReadError(format!(
-                "{line}: {} (column {}) is \"{}\"; wanted is a finite number",
-                StateRow::COLUMNS[k],
+                "{line}: {name} (column {}) is \"{}\"; wanted is a finite number",
                 index + 1,
                 printable::shortened(cell, CELL),
             ))),
@@ -225,12 +277,21 @@ impl<R: Read> States<R> {
     }
 }
 
-/// A reader that refuses lines longer than [`LINE`].
+fn in_time(line: u64, time: f64) -> Result<f64, ReadError> {
+    match time < 0.0 {
+        true => Err(ReadError(format!("{line}: time is {time:?}; wanted is a number from 0"))),
+        false => Ok(time),
+    }
+}
+
+/// A reader that refuses lines longer than `most`.
 #[derive(Debug)]
 struct Lines<R> {
     inner: R,
     /// Bytes since the last line end.
     length: usize,
+    /// Longest line, bytes.
+    most: usize,
 }
 
 impl<R: Read> Read for Lines<R> {
@@ -250,8 +311,8 @@ impl<R: Read> Read for Lines<R> {
         read = kept;
         for line in buffer[..read].split_inclusive(|byte| *byte == b'\n') {
             self.length += line.len();
-            if self.length > LINE {
-                let message = format!("a line of more than {LINE} bytes; wanted are rows of numbers");
+            if self.length > self.most {
+                let message = format!("a line of more than {} bytes; wanted are rows of numbers", self.most);
                 return Err(io::Error::new(io::ErrorKind::InvalidData, message));
             }
             if line.ends_with(b"\n") {
@@ -343,10 +404,57 @@ mod tests {
     fn a_line_without_end_is_refused_before_it_fills_the_memory() {
         let endless = std::io::repeat(b'1').take(1 << 30);
         let error = States::new(endless, &Columns::default(), 1).expect_err("no line end").to_string();
-        assert!(error.contains("a line of more than 65536 bytes"), "{error}");
+        assert!(error.contains("a line of more than 65728 bytes"), "{error}");
         let late = HEAD.as_bytes().chain(b"0,0,1,2,3,4,5,6\n".chain(std::io::repeat(b'1').take(1 << 30)));
         let mut states = States::new(late, &Columns::default(), 1).expect("a first row");
         let error = states.moment().expect_err("no line end").to_string();
         assert!(error.starts_with("3: a line of more"), "{error}");
+    }
+
+    #[test]
+    fn a_row_may_hold_all_spheres_in_columns_that_are_numbered() {
+        let long = all("time,sphere,x,y,z\n0,0,1,2,3\n0,1,4,5,6\n1,0,7,8,9\n1,1,0,0,0\n", &Columns::default(), 2);
+        for (head, columns) in [
+            ("time,x0,y0,z0,x1,y1,z1", ""),
+            ("time,x_1,y_1,z_1,x_2,y_2,z_2", ""),
+            ("t,x[0],y[0],z[0],x[1],y[1],z[1]", "t=time"),
+            ("t,p0x,y0,z0,p1x,y1,z1", "t=time,p#x=x"),
+        ] {
+            let columns = if columns.is_empty() { Columns::default() } else { Columns::parse(columns).expect(columns) };
+            let found = all(&format!("{head}\n0,1,2,3,4,5,6\n1,7,8,9,0,0,0\n"), &columns, 2).expect(head);
+            let places = |moments: &[Moment]| moments.iter().map(|moment| moment.x.clone()).collect::<Vec<_>>();
+            assert_eq!(places(&found), places(long.as_ref().expect("rows")), "{head}");
+            assert_eq!((found[1].time, found[1].line, found[1].v.len()), (1.0, 3, 0), "{head}");
+        }
+        let moves = all("vx0,vy0,vz0,time,x0,y0,z0\n1,2,3,0,4,5,6\n", &Columns::default(), 1).expect("velocities");
+        assert_eq!((moves[0].x[0], moves[0].v[0]), (DVec3::new(4.0, 5.0, 6.0), DVec3::new(1.0, 2.0, 3.0)));
+    }
+
+    #[test]
+    fn a_row_of_all_spheres_that_is_broken_is_refused_with_its_line_and_column() {
+        let head = "time,x0,y0,z0,x1,y1,z1\n";
+        for (text, words) in [
+            ("time,x0,y0,z0\n0,1,2,3\n".to_owned(), &["1: ", "no column x1", "each sphere, 0 to 1"][..]),
+            ("time,x0,y0,z0,x1,y1,z1,x2,y2,z2\n".into(), &["1: ", "column x2 is of a sphere more", "2"]),
+            ("x0,y0,z0,x1,y1,z1\n".into(), &["1: ", "no column time"]),
+            ("time,x0,y0,z0,x1,y1,z1,vx0\n".into(), &["1: ", "no column vy0"]),
+            (head.into(), &["2: ", "ends"]),
+            (format!("{head}0,1,2,3,4,5\n"), &["2: ", "6 cells", "7"]),
+            (format!("{head}0,1,2,3,4,soon,6\n"), &["2: ", "y (column 6) is \"soon\""]),
+            (format!("{head}1,1,2,3,4,5,6\n0.5,1,2,3,4,5,6\n"), &["3: ", "0.5 after 1.0"]),
+            (format!("{head}-1,1,2,3,4,5,6\n"), &["2: ", "time is -1"]),
+        ] {
+            let error = all(&text, &Columns::default(), 2).expect_err(&text);
+            assert!(words.iter().all(|word| error.contains(word)), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_row_may_be_as_long_as_its_spheres_need() {
+        let numbers = |of: &dyn Fn(usize) -> String| (0..1000).map(of).collect::<Vec<_>>().join(",");
+        let head = numbers(&|i| format!("x{i},y{i},z{i},vx{i},vy{i},vz{i}"));
+        let row = numbers(&|_| "-1.2345678901234567e-10,2,3,-1.2345678901234567e-10,-1.2345678901234567e-10,3".into());
+        let moments = all(&format!("time,{head}\n0,{row}\n"), &Columns::default(), 1000).expect("a long row");
+        assert_eq!((moments[0].x.len(), moments[0].v[999].z), (1000, 3.0));
     }
 }

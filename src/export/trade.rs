@@ -2,6 +2,7 @@
 
 use std::{fmt, io};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::note::Note;
@@ -114,7 +115,7 @@ impl Row for TradeNote {
 /// # Errors
 /// A reader that fails, other columns, a cell that is no number.
 pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, ReadError> {
-    read_rows(reader).map_err(ReadError)
+    read_all(reader, "a measure", improper)
 }
 
 /// Why a file of rows is refused. Displays as `line: what is wrong there`, or as ` what is wrong` if it is no line.
@@ -143,31 +144,57 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-fn read_rows(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, String> {
-    let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(reader);
-    let mut records = csv.records();
-    let header = records.next().ok_or("1: the file is empty; a measure's CSV begins with its column names")?;
-    let header = header.map_err(|error| explain(&error))?;
-    if !header.iter().eq(TradeRow::COLUMNS.iter().copied()) {
-        return Err(format!("1: these are not the columns of a measure; wanted are {}", TradeRow::COLUMNS.join(",")));
-    }
-    records.map(|record| read_row(&record.map_err(|error| explain(&error))?)).collect()
+/// Reads a table of rows that `what` has, each with its line number; `improper` says what no row holds.
+pub(super) fn read_all<R: Row + DeserializeOwned>(
+    reader: impl io::Read,
+    what: &str,
+    improper: impl Fn(&R) -> Option<String>,
+) -> Result<Vec<(u64, R)>, ReadError> {
+    read_rows(reader, what, improper).map_err(ReadError)
 }
 
-fn read_row(record: &csv::StringRecord) -> Result<(u64, TradeRow), String> {
+fn read_rows<R: Row + DeserializeOwned>(
+    reader: impl io::Read,
+    what: &str,
+    improper: impl Fn(&R) -> Option<String>,
+) -> Result<Vec<(u64, R)>, String> {
+    let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(reader);
+    let mut records = csv.records();
+    let header =
+        records.next().ok_or(format!("1: the file is empty; the CSV of {what} begins with its column names"))?;
+    let header = header.map_err(|error| explain(&error))?;
+    if !header.iter().eq(R::COLUMNS.iter().copied()) {
+        return Err(format!("1: these are not the columns of {what}; wanted are {}", R::COLUMNS.join(",")));
+    }
+    records.map(|record| read_row(&record.map_err(|error| explain(&error))?, &improper)).collect()
+}
+
+fn read_row<R: Row + DeserializeOwned>(
+    record: &csv::StringRecord,
+    improper: &impl Fn(&R) -> Option<String>,
+) -> Result<(u64, R), String> {
     let line = record.position().map_or(0, csv::Position::line);
-    let (found, wanted) = (record.len(), TradeRow::COLUMNS.len());
+    let (found, wanted) = (record.len(), R::COLUMNS.len());
     if found != wanted {
         return Err(format!("{line}: {found} cells, where {wanted} are wanted"));
     }
-    let row: TradeRow = record.deserialize(None).map_err(|error| format!("{line}: {}", cell(&error, record)))?;
+    let row: R = record.deserialize(None).map_err(|error| format!("{line}: {}", cell::<R>(&error, record)))?;
+    if let Some((column, what)) = R::COLUMNS.iter().zip(record).find_map(|(column, text)| Some((column, unseen(text)?)))
+    {
+        return Err(format!("{line}: {column} holds {what}; wanted is text of characters that can be seen"));
+    }
     match improper(&row) {
         Some(what) => Err(format!("{line}: {what}")),
         None => Ok((line, row)),
     }
 }
 
-/// What no measure writes, but a file may hold: numbers that are none or negative, text that a terminal would obey.
+/// What a terminal would obey in a text, in words.
+fn unseen(text: &str) -> Option<String> {
+    text.chars().find(|c| !printable::is_printable(*c)).map(printable::described)
+}
+
+/// What no measure writes, but a file may hold: numbers that are none or negative.
 fn improper(row: &TradeRow) -> Option<String> {
     let numbers = [
         ("tolerance", row.tolerance),
@@ -189,25 +216,18 @@ fn improper(row: &TradeRow) -> Option<String> {
     if let Some((column, value)) = numbers.iter().find(|(_, value)| value.is_some_and(|value| !fine(value))) {
         return Some(format!("{column} is {:?}; wanted is a finite number from 0", value.unwrap_or(f64::NAN)));
     }
-    if !row.deepest_degree.is_finite() {
-        return Some(format!("deepest_degree is {:?}; wanted is a finite number", row.deepest_degree));
-    }
-    let note = row.note.to_string();
-    let texts = [("scene", &row.scene), ("method", &row.method), ("note", &note)];
-    let (column, refused) =
-        texts.iter().find_map(|(column, text)| Some((column, text.chars().find(|c| !printable::is_printable(*c))?)))?;
-    let what = printable::described(refused);
-    Some(format!("{column} holds {what}; wanted is text of characters that can be seen"))
+    let deepest = row.deepest_degree;
+    (!deepest.is_finite()).then(|| format!("deepest_degree is {deepest:?}; wanted is a finite number"))
 }
 
 /// Longest cell quoted in a message, characters.
 pub(super) const CELL: usize = 60;
 
 /// Which cell of a row is wrong, and what stands in it.
-fn cell(error: &csv::Error, record: &csv::StringRecord) -> String {
+fn cell<R: Row>(error: &csv::Error, record: &csv::StringRecord) -> String {
     let csv::ErrorKind::Deserialize { err, .. } = error.kind() else { return error.to_string() };
     let Some(index) = err.field().and_then(|index| usize::try_from(index).ok()) else { return err.to_string() };
-    let column = TradeRow::COLUMNS.get(index).copied().unwrap_or("a cell");
+    let column = R::COLUMNS.get(index).copied().unwrap_or("a cell");
     let found = printable::shortened(record.get(index).unwrap_or(""), CELL);
     format!("{column} is \"{found}\"; wanted is a number")
 }

@@ -1,7 +1,8 @@
-//! What a scene says of its bodies, as a mark needs it: gaps, pulls, energy. Nothing of the solvers is in it.
+//! What a scene says of its bodies, as a mark needs it: gaps, pulls, energy, momentum. Nothing of the solvers is in it.
 
 use glam::DVec3;
 
+use super::ledger::Totals;
 use crate::geometry::Parallelogram;
 use crate::physics::Kind;
 use crate::physics::contact::Key;
@@ -130,10 +131,11 @@ impl Bodies {
         })
     }
 
-    /// Σ ½ m v² − m pull · x, J.
-    pub(super) fn energy(&self, x: &[DVec3], v: &[DVec3]) -> f64 {
+    /// Σ ½ m v² − m pull · x and Σ m v.
+    pub(super) fn totals(&self, x: &[DVec3], v: &[DVec3]) -> Totals {
         let of = |i: usize| self.masses[i] * (0.5 * v[i].length_squared() - self.pulls[i].dot(x[i]));
-        (0..x.len()).map(of).sum()
+        let momentum = v.iter().zip(&self.masses).map(|(v, mass)| *v * *mass).sum();
+        Totals { energy: (0..x.len()).map(of).sum(), momentum }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::bodies::Bodies;
 use super::interval::Interval;
-use super::ledger::Ledger;
+use super::ledger::{Ledger, Totals};
 use super::mistake::Suspicion;
+use super::norm::{Beside, Norm};
 use super::observer::{Deepest, Observer};
 use super::order::{Compared, Sight, WrongImpact, compare};
 use super::series::Series;
@@ -11,7 +12,7 @@ use super::standard::{Follow, Source, Standard};
 use super::truth::Truth;
 use crate::certify::{Certificate, certify};
 use crate::export::{Moment, ReadError};
-use crate::measure::Deviation;
+use crate::measure::{Deviation, Observables};
 use crate::scene::Scene;
 
 /// Without a tolerance, the error asked for, as a part of the smallest radius.
@@ -27,10 +28,14 @@ pub struct Exam {
     bodies: Bodies,
     /// Largest position error that passes, m; none: there is no verdict.
     pub tolerance: Option<f64>,
+    /// Up to when it was asked to mark, s.
+    pub until: f64,
     /// Up to when positions are held against `exact`, s: there its own error is a tenth of the tolerance at most.
     pub horizon: f64,
     /// What is known of `exact` itself.
     pub certificate: Certificate,
+    /// What many runs do, for figures beyond the horizon.
+    pub norm: Option<Norm>,
 }
 
 /// What a mark says of a trajectory.
@@ -54,12 +59,14 @@ pub struct Mark {
     pub impacts: Option<Impacts>,
     /// The deepest overlap in any row.
     pub deepest: Option<Deepest>,
-    /// Its energy; none if the file has no velocities.
+    /// Its energy and momentum; none if the file has no velocities.
     pub energy: Option<Ledger>,
     /// Largest momentum that an impact of a pair by itself made or lost, as a part of what it exchanged.
     pub imbalance: f64,
     /// When a velocity first changed that neither a contact nor a pull explains, s, and of which sphere.
     pub unexplained: Option<(f64, usize)>,
+    /// Its figures as a crowd beside those of many runs; empty if it is held against none.
+    pub crowd: Vec<Beside>,
     /// The likeliest mistake, if the trajectory is wrong.
     pub mistake: Option<Suspicion>,
     /// Whether it goes on to the horizon, or to a row before it.
@@ -101,7 +108,12 @@ impl Exam {
         let bodies = Bodies::of(scene);
         let smallest = bodies.radii.iter().copied().fold(f64::INFINITY, f64::min);
         let horizon = certificate.within(FLOOR * tolerance.unwrap_or(ASKED * smallest));
-        Some(Exam { scene: scene.clone(), bodies, tolerance, horizon, certificate })
+        Some(Exam { scene: scene.clone(), bodies, tolerance, until, horizon, certificate, norm: None })
+    }
+
+    /// The same, with figures of a crowd held against those of many runs.
+    pub fn beside(self, norm: Option<Norm>) -> Exam {
+        Exam { norm, ..self }
     }
 
     /// How many spheres a file must have.
@@ -129,6 +141,7 @@ impl Exam {
 
     fn hold(&self, mut source: Source, mut standard: Standard, go_on: &dyn Fn() -> bool) -> Result<Mark, NoMark> {
         let mut reading = Reading::new(&self.bodies);
+        reading.crowd = self.norm.as_ref().map(|_| Observables::new(&self.scene, self.scene.duration));
         let mut known = true;
         while let Some(moment) = source.moment()? {
             if !go_on() {
@@ -139,7 +152,10 @@ impl Exam {
             if let Some(wanted) = &wanted {
                 reading.compare(&moment, &wanted.x);
             }
-            reading.enter(moment, wanted.and_then(|wanted| wanted.energy));
+            if let Some(crowd) = &mut reading.crowd {
+                crowd.enter(moment.time, &moment.x, &moment.v);
+            }
+            reading.enter(moment, wanted.and_then(|wanted| wanted.totals));
         }
         if !go_on() {
             return Err(NoMark::Interrupted);
@@ -150,6 +166,8 @@ impl Exam {
 
     fn close(&self, reading: Reading, mut standard: Standard, against_exact: bool) -> Mark {
         let Reading { mut observer, compared, spacing, .. } = reading;
+        let crowd = reading.crowd.as_ref().map(Observables::figures);
+        let crowd = self.norm.as_ref().zip(crowd).map(|(norm, figures)| norm.beside(&figures)).unwrap_or_default();
         observer.finish();
         let (exact, other, interpolation) = standard.close();
         let tolerance = self.tolerance.unwrap_or(0.0);
@@ -173,6 +191,7 @@ impl Exam {
             energy: reading.moves.then_some(reading.ledger),
             imbalance: observer.imbalance,
             unexplained: observer.unexplained,
+            crowd,
             mistake: observer.evidence.suspicion().filter(|_| wrong),
             complete,
             passes,
@@ -193,6 +212,7 @@ struct Reading<'a> {
     error: (f64, f64, usize),
     series: Series,
     ledger: Ledger,
+    crowd: Option<Observables>,
 }
 
 impl<'a> Reading<'a> {
@@ -209,6 +229,7 @@ impl<'a> Reading<'a> {
             error: (0.0, 0.0, 0),
             series: Series::default(),
             ledger: Ledger::default(),
+            crowd: None,
         }
     }
 
@@ -221,11 +242,11 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn enter(&mut self, moment: Moment, exact: Option<f64>) {
+    fn enter(&mut self, moment: Moment, exact: Option<Totals>) {
         self.moments += 1;
         self.moves = !moment.v.is_empty();
         if self.moves {
-            self.ledger.enter(moment.time, self.bodies.energy(&moment.x, &moment.v), exact);
+            self.ledger.enter(moment.time, self.bodies.totals(&moment.x, &moment.v), exact);
         }
         let touches = self.observer.touches(&moment);
         if let Some(last) = &self.last {

@@ -14,16 +14,19 @@
 //! | `truth`, `standard` | what it is held against |
 //! | `order` | which impact comes first that should not |
 //! | `ledger`, `series` | energy, and an error over time, in bounded memory |
+//! | `norm` | what many runs of a crowd do, and how far a trajectory is from that |
 //! | `class` | many files side by side |
-//! | `report`, `figure` | what was found, for a terminal and as SVG |
+//! | `report`, `crowded`, `figure` | what was found, for a terminal and as SVG |
 
 mod bodies;
 mod class;
+mod crowded;
 mod exam;
 mod figure;
 mod interval;
 mod ledger;
 mod mistake;
+mod norm;
 mod observer;
 mod order;
 mod report;
@@ -36,6 +39,7 @@ pub use exam::{Exam, Impacts, Mark, NoMark};
 pub use figure::figure;
 pub use ledger::Ledger;
 pub use mistake::{Mistake, Suspicion};
+pub use norm::{Beside, Norm, Normal};
 pub use observer::Deepest;
 pub use order::{Wrong, WrongImpact};
 pub use report::{order, report, row};

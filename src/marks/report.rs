@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::class::Marked;
+use super::crowded::{crowd, crowd_marks};
 use super::exam::{Exam, Mark};
 use super::ledger::Ledger;
 use super::order::{Wrong, WrongImpact};
@@ -15,6 +16,9 @@ use crate::physics::contact::Key;
 /// Up to so many files each gets a paragraph below the table.
 const TOLD: usize = 8;
 
+/// More spheres are a crowd.
+const CROWD: usize = 16;
+
 /// Changes below this part stand for rounding, of a program or of its rows.
 const ROUNDING: f64 = 1e-9;
 
@@ -22,7 +26,7 @@ const ROUNDING: f64 = 1e-9;
 /// file that they are held against instead of `exact`.
 pub fn report(exam: &Exam, scene: &str, other: Option<&str>, marked: &[Marked]) -> String {
     let mut text = heading(exam, scene, other) + "\n\n";
-    text += "verdict  error m at s    wrong impact             depth likely mistake         file\n";
+    text += "verdict  error m at s    wrong impact               depth likely mistake         file\n";
     for Marked { name, mark } in marked {
         match mark {
             Ok(mark) => text += &(line(mark) + name + "\n"),
@@ -33,7 +37,9 @@ pub fn report(exam: &Exam, scene: &str, other: Option<&str>, marked: &[Marked]) 
     }
     if marked.len() <= TOLD {
         for Marked { name, mark } in marked {
-            text += &mark.as_ref().map(|mark| format!("\n{name}: {}\n", paragraph(mark))).unwrap_or_default();
+            if let Ok(mark) = mark {
+                text += &format!("\n{name}: {}\n{}", paragraph(mark), crowd(&mark.crowd));
+            }
         }
     } else {
         let count = |verdict: &str| marked.iter().filter(|marked| word(marked) == verdict).count();
@@ -63,7 +69,9 @@ fn heading(exam: &Exam, scene: &str, other: Option<&str>) -> String {
         false => String::new(),
     };
     let because = certificate.ending.as_ref().map(|ending| format!(" ({})", ending.cause.words())).unwrap_or_default();
-    floor + &because + &horizon + &asked
+    let many = exam.spheres() > CROWD && exam.horizon < exam.until && exam.norm.is_none();
+    let beyond = if many { ";\n  beyond that --crowd compares figures of the crowd" } else { "" };
+    floor + &because + &horizon + &asked + beyond
 }
 
 /// The word of a verdict.
@@ -85,7 +93,7 @@ fn line(mark: &Mark) -> String {
     let (error, at, _) = mark.error;
     let wrong = mark.impacts.and_then(|impacts| impacts.first_wrong);
     format!(
-        "{verdict:8} {:7} {:7} {:24} {:5} {:22} ",
+        "{verdict:8} {:7} {:7} {:26} {:5} {:22} ",
         format::digits(error, 1),
         format::time(at),
         wrong.map(short).unwrap_or("-".into()),
@@ -136,6 +144,7 @@ fn paragraph(mark: &Mark) -> String {
         format!("deepest overlap {degree}, {} at {time} s", bodies(deepest.key))
     }));
     said.extend(mark.energy.as_ref().map(energy));
+    said.extend(mark.energy.as_ref().map(momentum));
     if mark.imbalance > ROUNDING {
         let part = format::digits(mark.imbalance, 1);
         said.push(format!("impacts of pairs by themselves change the momentum by up to {part} of what they exchange"));
@@ -166,6 +175,12 @@ fn energy(energy: &Ledger) -> String {
         false => String::new(),
     };
     format!("energy {start} J to {end} J{rise}{off}")
+}
+
+fn momentum(ledger: &Ledger) -> String {
+    let vector = |p: glam::DVec3| format!("({})", p.to_array().map(format::rounded).join(", "));
+    let off = ledger.momentum_error.map(|off| format!(", off by {} at most", format::rounded(off))).unwrap_or_default();
+    format!("momentum {} to {} kg m/s{off}", vector(ledger.momentum_start), vector(ledger.momentum_end))
 }
 
 fn at_length(wrong: WrongImpact) -> String {
@@ -229,10 +244,14 @@ fn filled(begun: MarkRow, mark: &Mark) -> MarkRow {
         energy_end: energy(|energy| energy.end),
         energy_rise: energy(|energy| energy.rise),
         energy_error: mark.energy.and_then(|energy| energy.error),
+        momentum_start: mark.energy.map(|ledger| ledger.momentum_start.to_array()),
+        momentum_end: mark.energy.map(|ledger| ledger.momentum_end.to_array()),
+        momentum_off: mark.energy.and_then(|ledger| ledger.momentum_error),
         momentum_error: mark.energy.map(|_| mark.imbalance),
         unexplained_time: mark.unexplained.map(|(time, _)| time),
         mistake: mark.mistake.map(|suspicion| suspicion.mistake.name().into()),
         mistake_seen: mark.mistake.map(|suspicion| [suspicion.seen, suspicion.of]),
+        crowd: crowd_marks(&mark.crowd),
         errors: mark.series.points().to_vec(),
         ..begun
     }

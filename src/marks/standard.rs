@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::bodies::Bodies;
 use super::interval::Interval;
+use super::ledger::Totals;
 use super::observer::{Observer, Seen};
 use super::truth::Truth;
 use crate::export::{Moment, ReadError, States};
@@ -30,8 +31,8 @@ pub(super) struct Follow<'a> {
 #[derive(Debug)]
 pub(super) struct Wanted {
     pub(super) x: Vec<DVec3>,
-    /// J, if it is known.
-    pub(super) energy: Option<f64>,
+    /// Energy and momentum, if they are known.
+    pub(super) totals: Option<Totals>,
 }
 
 impl<'a> Follow<'a> {
@@ -53,20 +54,20 @@ impl<'a> Follow<'a> {
             self.before = after;
         }
         let Some(after) = &self.after else {
-            return Ok((t == self.before.time).then(|| Wanted { x: self.before.x.clone(), energy: None }));
+            return Ok((t == self.before.time).then(|| Wanted { x: self.before.x.clone(), totals: None }));
         };
         if t < self.before.time {
             return Ok(None);
         }
         let ends = [&self.before, after].map(|moment| moment.time == t);
         if let Some(same) = [&self.before, after].into_iter().zip(ends).find_map(|(moment, is)| is.then_some(moment)) {
-            return Ok(Some(Wanted { x: same.x.clone(), energy: None }));
+            return Ok(Some(Wanted { x: same.x.clone(), totals: None }));
         }
         let pair = with_speeds(self.bodies, &self.before, after);
         let interval = Interval::new(self.bodies, &pair[0], &pair[1]);
         let places: Vec<(DVec3, f64)> = (0..after.x.len()).map(|i| interval.place(i, t)).collect();
         self.apart = places.iter().map(|place| place.1).fold(self.apart, f64::max);
-        Ok(Some(Wanted { x: places.into_iter().map(|place| place.0).collect(), energy: None }))
+        Ok(Some(Wanted { x: places.into_iter().map(|place| place.0).collect(), totals: None }))
     }
 
     fn observe(&mut self, after: &Moment) {
@@ -110,8 +111,8 @@ impl Standard<'_> {
         match self {
             Standard::Other(follow) => follow.at(t),
             Standard::Exact(truth) => {
-                let energy = |v: &[DVec3], x: &[DVec3]| Some(bodies.energy(x, v));
-                Ok(truth.at(t, go_on).map(|state| Wanted { energy: energy(&state.v, &state.x), x: state.x }))
+                let totals = |x: &[DVec3], v: &[DVec3]| Some(bodies.totals(x, v));
+                Ok(truth.at(t, go_on).map(|state| Wanted { totals: totals(&state.x, &state.v), x: state.x }))
             }
         }
     }

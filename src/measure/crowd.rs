@@ -1,53 +1,23 @@
 //! A crowd judged beyond the horizon, where places mean nothing any longer: means over many runs that begin a hair's breadth
 //! aside, which any right method must share.
 
-use glam::DVec3;
-
 use super::displaced::aside;
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::Rung;
-use super::sample::run_through;
-use crate::physics::{Class, Effect, Kind, Progress, Simulation, State, Until, knobs};
+use super::observables::{Figures, INSTANTS, Observables, Told, WINDOW};
+use super::sample::{Budget, EndReason, Pace};
+use crate::export::FIGURES;
+use crate::physics::{Class, Effect, Kind, Progress, Simulation, Until, knobs};
 use crate::scene::Scene;
 
 /// How far each sphere is displaced, as a part of the smallest radius: no figure sees it, and every collision enlarges it.
 const ASIDE: f64 = 1e-9;
 
-/// Part of the run, at its end, over which the load on the walls is taken.
-const WINDOW: f64 = 0.2;
-
-/// What lies apart by less than this part of its reach counts as a contact.
-const TOUCHES: f64 = 1e-3;
-
-/// Settled is a crowd whose kinetic energy stays below this part of the largest.
-const SETTLED: f64 = 1e-3;
-
-/// Instants at which energy is read.
-const INSTANTS: usize = 200;
-
 /// Means that differ by less than this part of themselves are the same: what rounding leaves of a sum.
 const SAME: f64 = 1e-9;
 
 /// Standard errors by which means may differ.
-const ERRORS: f64 = 3.0;
-
-/// What is measured, and in which unit.
-pub const FIGURES: [(&str, &str); 11] = [
-    ("energy at a quarter", "J"),
-    ("energy at half", "J"),
-    ("energy at the end", "J"),
-    ("load on walls / weight", ""),
-    ("contacts of a sphere", ""),
-    ("packing", ""),
-    ("height of the lowest tenth", "m"),
-    ("median height", "m"),
-    ("height of the highest tenth", "m"),
-    ("settled after", "s"),
-    ("gap × force at rest", "J"),
-];
-
-/// The figures of one run, in the order of [`FIGURES`]; none where there is no such figure.
-type Figures = [Option<f64>; FIGURES.len()];
+pub(super) const ERRORS: f64 = 3.0;
 
 /// A mean over runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +30,26 @@ pub struct Mean {
     pub runs: usize,
 }
 
+/// One run of a setting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ran {
+    /// How far it came, s.
+    pub reached: f64,
+    /// Why no further; none if it came to its end.
+    pub stopped: Option<Stopped>,
+    /// What it gave up to there.
+    pub figures: Figures,
+}
+
+/// Why a run of a crowd did not come to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stopped {
+    /// The method could not go on.
+    Stalled,
+    /// What it may take was spent.
+    Spent,
+}
+
 /// One setting's means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crowd {
@@ -67,6 +57,10 @@ pub struct Crowd {
     pub rung: Rung,
     /// Runs that came to the end, of those begun.
     pub finished: (usize, usize),
+    /// Runs that stalled; the others that did not come to the end had spent what they may take.
+    pub stalled: usize,
+    /// How far the run came that came least far, and the one that came farthest, s.
+    pub reached: (f64, f64),
     /// In the order of [`FIGURES`].
     pub means: Vec<Option<Mean>>,
 }
@@ -80,33 +74,37 @@ impl Mean {
         (!values.is_empty()).then_some(Mean { mean, error, runs: values.len() })
     }
 
-    /// Whether two means differ by no more than three standard errors, or rounding.
-    pub fn agrees(&self, other: &Mean) -> bool {
+    /// By how many standard errors of their difference two means differ; 0 if by no more than rounding.
+    pub fn apart(&self, other: &Mean) -> f64 {
         let apart = (self.mean - other.mean).abs();
         let errors = (self.error * self.error + other.error * other.error).sqrt();
-        apart <= ERRORS * errors + SAME * (self.mean.abs() + other.mean.abs())
+        if apart <= SAME * (self.mean.abs() + other.mean.abs()) { 0.0 } else { apart / errors }
+    }
+
+    /// Whether two means differ by no more than three standard errors, or rounding.
+    pub fn agrees(&self, other: &Mean) -> bool {
+        self.apart(other) <= ERRORS
     }
 }
 
 impl Crowd {
-    /// The means of a setting's runs; a run that did not come to its end is none.
-    pub fn of(rung: Rung, runs: &[Option<Figures>]) -> Crowd {
-        let done: Vec<&Figures> = runs.iter().flatten().collect();
-        let mean = |k: usize| Mean::of(&done.iter().filter_map(|figures| figures[k]).collect::<Vec<_>>());
-        Crowd { rung, finished: (done.len(), runs.len()), means: (0..FIGURES.len()).map(mean).collect() }
+    /// The means of a setting's runs. A run that did not come to its end gives the figures up to where it came.
+    pub fn of(rung: Rung, runs: &[Ran]) -> Crowd {
+        let mean = |k: usize| Mean::of(&runs.iter().filter_map(|run| run.figures[k]).collect::<Vec<_>>());
+        let done = runs.iter().filter(|run| run.stopped.is_none()).count();
+        let stalled = runs.iter().filter(|run| run.stopped == Some(Stopped::Stalled)).count();
+        let reached = runs.iter().map(|run| run.reached);
+        let reached = (reached.clone().fold(f64::INFINITY, f64::min), reached.fold(0.0, f64::max));
+        let means = (0..FIGURES.len()).map(mean).collect();
+        Crowd { rung, finished: (done, runs.len()), stalled, reached, means }
     }
 }
 
-/// One run of a setting, displaced by a seed; none if it stalls or takes more than `timeout` (s of processor time).
+/// One run of a setting, displaced by a seed, as far as it comes within `budget`.
 ///
 /// # Errors
 /// If `go_on` returns false.
-pub fn crowd_run(
-    scene: &Scene,
-    rung: Rung,
-    (seed, timeout): (u64, f64),
-    go_on: GoOn,
-) -> Result<Option<Figures>, Interrupted> {
+pub fn crowd_run(scene: &Scene, rung: Rung, (seed, budget): (u64, Budget), go_on: GoOn) -> Result<Ran, Interrupted> {
     let smallest = scene.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
     let scene = aside(scene, seed, ASIDE * smallest);
     let until = scene.duration;
@@ -116,126 +114,76 @@ pub fn crowd_run(
         settings.dt = settings.dt.min(until / INSTANTS as f64);
     }
     let mut run = Simulation::new(&scene, settings);
-    let watch = super::clock::Watch::start();
-    let (mut energies, mut kinetic) = (Vec::new(), Vec::new());
-    let (mut load, mut since) = (0.0, 0.0);
+    let mut seen = Observables::new(&scene, until);
+    let mut pace = Pace::new(budget);
+    let (mut carried, mut since) = (0.0, 0.0);
     for k in 0..=INSTANTS {
         let time = k as f64 * until / INSTANTS as f64;
-        if time > until * (1.0 - WINDOW) {
-            load += match carry(&mut run, time, go_on)? {
-                Some(load) => load,
-                None => return Ok(None),
-            };
-        } else if run_through(&mut run, time, go_on)? {
+        let mut end = if time <= until * (1.0 - WINDOW) {
+            let end = pace.reach(&mut run, time, go_on)?;
             since = run.time(); // the end of a frame, which may be later than was asked for
+            end
         } else {
-            return Ok(None);
+            carry(&mut run, time, (&mut pace, go_on), &mut carried)?
+        };
+        if end.is_none() && pace.is_spent(&run) {
+            end = Some(EndReason::Spent); // where slices end must not decide it
         }
-        if watch.cpu() > timeout {
-            return Ok(None);
+        if let Some(end) = end {
+            let stopped = Some(if end == EndReason::Spent { Stopped::Spent } else { Stopped::Stalled });
+            let reached = k.saturating_sub(1) as f64 * until / INSTANTS as f64;
+            return Ok(Ran { reached, stopped, figures: seen.figures() });
         }
         let state = run.at(time);
-        energies.push(state.energy(run.model()));
-        kinetic.push(moving(&run, &state));
+        seen.enter(time, &state.x, &state.v);
     }
-    Ok(Some(figures(&run, until, [&energies, &kinetic], load / (run.time() - since))))
+    let weight = seen.weight().length();
+    let forces = (weight > 0.0).then(|| carried / (run.time() - since) / weight);
+    let told = Told { forces, ..residuals(&run) };
+    Ok(Ran { reached: until, stopped: None, figures: seen.figures_with(told) })
 }
 
-/// Kinetic energy, J.
-fn moving(run: &Simulation, state: &State) -> f64 {
-    state.v.iter().zip(&run.model().masses).map(|(v, m)| 0.5 * m * v.length_squared()).sum()
-}
-
-/// Runs to `time` (s) frame by frame; what the walls gave against gravity, N s. None if it stalls.
-fn carry(run: &mut Simulation, time: f64, go_on: GoOn) -> Result<Option<f64>, Interrupted> {
-    let up = -pull(run).normalize_or_zero();
-    let mut given = 0.0;
+/// Runs to `time` (s) frame by frame, and adds what the walls gave against gravity, N s. Says so if it cannot.
+fn carry(
+    run: &mut Simulation,
+    time: f64,
+    (pace, go_on): (&mut Pace, GoOn),
+    carried: &mut f64,
+) -> Result<Option<EndReason>, Interrupted> {
+    let model = run.model();
+    let weight: glam::DVec3 = (0..model.len()).map(|i| model.acceleration(i) * model.masses[i]).sum();
+    let up = -weight.normalize_or_zero();
     while run.time() < time {
         if !go_on() {
             return Err(Interrupted);
         }
+        if pace.is_spent(run) {
+            return Ok(Some(EndReason::Spent));
+        }
         match run.advance(Until::Frame, Simulation::SLICE) {
             Progress::Yielded => {}
-            Progress::Stalled(_) => return Ok(None),
+            Progress::Stalled(stall) => return Ok(Some(EndReason::Stalled(stall))),
             Progress::Reached => {
                 let walls = run.contacts().iter().filter(|row| row.kind == Kind::Wall && row.class != Class::Leave);
-                given += walls.map(|row| row.impulse * row.normal.dot(up)).sum::<f64>();
+                *carried += walls.map(|row| row.impulse * row.normal.dot(up)).sum::<f64>();
             }
         }
     }
-    Ok(Some(given))
+    Ok(None)
 }
 
-/// Σ of all constant forces, N.
-fn pull(run: &Simulation) -> DVec3 {
-    let model = run.model();
-    (0..model.len()).map(|i| model.acceleration(i) * model.masses[i]).sum()
-}
-
-/// The figures of a run at its end; `load` is what the walls gave against gravity, N.
-fn figures(run: &Simulation, until: f64, [energies, kinetic]: [&[f64]; 2], load: f64) -> Figures {
-    let model = run.model();
-    let state = run.at(until);
-    let weight = pull(run);
-    let up = if weight == DVec3::ZERO { DVec3::Y } else { -weight.normalize() };
-    let mut heights: Vec<f64> = state.x.iter().map(|x| x.dot(up)).collect();
-    heights.sort_by(f64::total_cmp);
-    let height = |part: f64| heights.get((part * heights.len() as f64) as usize).copied();
-    let most = kinetic.iter().copied().fold(0.0, f64::max);
-    let moves = kinetic.iter().rposition(|energy| *energy > SETTLED * most);
-    let settled = moves.filter(|last| last + 1 < kinetic.len()).map(|last| (last + 1) as f64 * until / INSTANTS as f64);
-    let rest = run.contacts().iter().filter(|row| row.class == Class::Rest && run.step() > 0.0);
-    let product = rest.map(|row| {
-        let reach = model.radii[row.a] + if row.kind == Kind::Pair { model.radii[row.b] } else { 0.0 };
-        (row.degree * reach * row.impulse / run.step()).abs()
-    });
-    [
-        energies.get(INSTANTS / 4).copied(),
-        energies.get(INSTANTS / 2).copied(),
-        energies.last().copied(),
-        (weight != DVec3::ZERO).then(|| load / weight.length()),
-        Some(contacts(run, &state)),
-        Some(packing(run, &state)),
-        height(0.1),
-        height(0.5),
-        height(0.9),
-        settled,
-        product.fold(None, |most: Option<f64>, value| Some(most.unwrap_or(0.0).max(value))),
-    ]
-}
-
-/// Mean number of bodies that touch a sphere.
-fn contacts(run: &Simulation, state: &State) -> f64 {
-    let model = run.model();
-    let n = model.len();
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| state.x[a].x.total_cmp(&state.x[b].x));
-    let widest = model.radii.iter().copied().fold(0.0, f64::max);
-    let mut count = 0_usize;
-    for (place, &a) in order.iter().enumerate() {
-        let near = state.x[a].x + (model.radii[a] + widest) * (1.0 + TOUCHES);
-        let after = order[place + 1..].iter().take_while(|&&b| state.x[b].x <= near);
-        let touch = |b: &&usize| {
-            let reach = model.radii[a] + model.radii[**b];
-            state.x[a].distance(state.x[**b]) <= reach * (1.0 + TOUCHES)
-        };
-        count += 2 * after.filter(touch).count();
-        let reach = model.radii[a] * (1.0 + TOUCHES);
-        count += model.faces.iter().filter(|face| face.shape.distance(state.x[a]) <= reach).count();
-    }
-    count as f64 / n.max(1) as f64
-}
-
-/// The spheres' volume over that of the box around them.
-fn packing(run: &Simulation, state: &State) -> f64 {
+/// What the resting contacts of the last frame leave of Signorini's conditions: gap ≥ 0, force ≥ 0, gap × force = 0. (The gap is
+/// asked for all bodies, whether they rest or not.)
+fn residuals(run: &Simulation) -> Told {
     let radii = &run.model().radii;
-    let around = |sign: f64| {
-        let edge = |(x, r): (&DVec3, &f64)| *x * sign + DVec3::splat(*r);
-        state.x.iter().zip(radii).map(edge).fold(DVec3::NEG_INFINITY, DVec3::max)
-    };
-    let size = around(1.0) + around(-1.0);
-    let volume: f64 = radii.iter().map(|r| 4.0 / 3.0 * std::f64::consts::PI * r * r * r).sum();
-    volume / (size.x * size.y * size.z)
+    let mut found = Told::default();
+    for row in run.contacts().iter().filter(|row| row.class == Class::Rest && run.step() > 0.0) {
+        let reach = radii[row.a] + if row.kind == Kind::Pair { radii[row.b] } else { 0.0 };
+        let force = row.impulse / run.step();
+        found.pull = Some(found.pull.unwrap_or(0.0).max(-force));
+        found.product = Some(found.product.unwrap_or(0.0).max((row.degree * reach * force).abs()));
+    }
+    found
 }
 
 #[cfg(test)]

@@ -51,7 +51,8 @@
 //! | `orders` | the order of each method in its knob |
 //! | `fit` | the order at which an error falls |
 //! | `accuracy` | the cheapest setting that meets an error |
-//! | `crowd`, `crowds` | what means over many seeds say beyond the horizon |
+//! | `observables` | what a crowd is seen to do, in a run or a file |
+//! | `crowd`, `crowds`, `crowd_report` | what means over many seeds say beyond the horizon; many runs, or parts joined; in words |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
 
@@ -61,6 +62,7 @@ mod chart;
 mod clock;
 mod cost;
 mod crowd;
+mod crowd_report;
 mod crowds;
 mod deviation;
 mod displaced;
@@ -71,6 +73,7 @@ mod growth;
 mod horizon;
 mod interrupt;
 mod ladder;
+mod observables;
 mod orders;
 mod reference;
 mod report;
@@ -89,8 +92,9 @@ pub use accuracy::{Choice, Miss, Tried, choose};
 pub use axes::{Axes, Cost as CostAxis, Error as ErrorAxis};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
-pub use crowd::{Crowd, FIGURES, Mean, crowd_run};
-pub use crowds::{crowd_report, crowd_rows, crowds};
+pub use crowd::{Crowd, Mean, Ran, Stopped, crowd_run};
+pub use crowd_report::{crowd_report, crowd_rows};
+pub use crowds::{CrowdPlan, GatherError, PlacedRun, SceneCrowds, crowd_runs, crowds, gather};
 pub use deviation::{Deviation, common_impacts, impact_time_error};
 pub use figure::figure;
 pub use fit::{Fit, fit};
@@ -98,6 +102,7 @@ pub use front::{Cheapest, cheapest, front};
 pub use growth::Growth;
 pub use interrupt::{GoOn, Interrupted};
 pub use ladder::{DT, Ladder, Rung, TOLERANCES};
+pub use observables::{Figures, Observables};
 pub use reference::{Horizon, OwnError, Reference};
 pub use report::report;
 pub use sample::{Budget, EndReason, Impact, Instants, Sampled, sample};

@@ -21,13 +21,15 @@ pub struct Budget {
     pub cpu: f64,
     /// Counted work, ns on some machine: what exceeds it is given up at the same instant everywhere.
     pub counted: u64,
+    /// Rests and releases: what they cost grows with the heap that they belong to, and no price is right for them.
+    pub changes: u64,
 }
 
 impl Budget {
     /// As much as it takes.
-    pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY, counted: u64::MAX };
+    pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY, counted: u64::MAX, changes: u64::MAX };
     /// For a reference: minutes of flights. A crowd that settles takes more, and gets the stand-in.
-    pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0, counted: u64::MAX };
+    pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0, ..Budget::UNLIMITED };
     /// For a reference that a user waits for: half a second of counted work.
     pub const BRIEF: Budget = Budget::counted(500_000_000);
 
@@ -147,7 +149,7 @@ pub(super) fn run_through(simulation: &mut Simulation, until: f64, go_on: GoOn) 
 }
 
 /// Work in slices that are neither so long that an interrupt waits nor so short that asking takes the time.
-struct Pace {
+pub(super) struct Pace {
     slices: Slices,
     spent: u64,
     budget: Budget,
@@ -155,12 +157,17 @@ struct Pace {
 }
 
 impl Pace {
-    fn new(budget: Budget) -> Pace {
+    pub(super) fn new(budget: Budget) -> Pace {
         Pace { slices: Slices::of(SLICE), spent: 0, budget, since: Watch::start() }
     }
 
     /// Advances until a frame holds `time` (s); says so if it cannot.
-    fn reach(&mut self, simulation: &mut Simulation, time: f64, go_on: GoOn) -> Result<Option<EndReason>, Interrupted> {
+    pub(super) fn reach(
+        &mut self,
+        simulation: &mut Simulation,
+        time: f64,
+        go_on: GoOn,
+    ) -> Result<Option<EndReason>, Interrupted> {
         let (mut interrupted, mut before) = (false, None);
         let end = simulation.run_to(time, |run| {
             let now = self.since.wall();
@@ -179,10 +186,13 @@ impl Pace {
         }
     }
 
-    fn is_spent(&self, run: &Simulation) -> bool {
+    /// Whether the budget is spent.
+    pub(super) fn is_spent(&self, run: &Simulation) -> bool {
         // Slices that are not used up count by their frames: of `exact`, one an event.
         let work = self.spent.max(run.tallies().frames);
+        let Tallies { rests, releases, .. } = run.tallies();
         work > self.budget.work
+            || rests + releases > self.budget.changes
             || counted(run) > self.budget.counted
             || self.budget.cpu.is_finite() && self.since.cpu() > self.budget.cpu
     }

@@ -97,3 +97,71 @@ fn no_output_replaces_a_trajectory() {
     assert!(ran.err.contains("would replace"), "{}", ran.err);
     assert_eq!(fs::read(&exact).expect("states"), before);
 }
+
+#[test]
+fn a_crowd_is_compared_with_many_runs_and_what_a_file_cannot_tell_is_said() {
+    let folder = folder();
+    let table = in_folder(&folder, "crowd.csv");
+    let crowd = ["--crowd", "4", "--methods", "moreau", "--dt", "1e-2", "--tolerances", "1e-6", "--csv", &table];
+    carom(&[&["measure", "bouncing-49"], &crowd[..]].concat()).succeeds();
+    let path = in_folder(&folder, "run.csv");
+    let settings = ["--method", "moreau", "--dt", "1e-2", "--tolerance", "1e-6"];
+    let rows = ["--every", "0.1", "--states", &path];
+    carom(&[&["run", "bouncing-49"], &settings[..], &rows[..]].concat()).succeeds();
+    let (json, scene) = (in_folder(&folder, "marks.jsonl"), ["--scene", "bouncing-49", "--crowd", &table]);
+    let judged = |file: &str| carom(&[&["judge", file, "--json", &json], &scene[..]].concat()).succeeds().out;
+    let figures = || {
+        let json = fs::read_to_string(&json).expect("JSON");
+        let mark: serde_json::Value = serde_json::from_str(json.trim()).expect("an object");
+        mark["crowd"].as_array().expect("figures").clone()
+    };
+    let right = judged(&path);
+    for word in ["mean of runs", "within", "not known of this file", "gap × force at rest", "4 of moreau, dt 1e-2 s"] {
+        assert!(right.contains(word), "{word:?} is not in {right}");
+    }
+    let found = figures();
+    let known = found.iter().filter(|figure| !figure["agrees"].is_null());
+    assert!(known.clone().count() >= 9 && known.clone().all(|figure| figure["agrees"] == true), "{found:?}");
+    // A metre higher: every height differs, and the energy by M g.
+    let text = fs::read_to_string(&path).expect("states");
+    let shifted = text.lines().enumerate().map(|(line, row)| {
+        let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+        if line > 0 {
+            cells[3] = format!("{:?}", cells[3].parse::<f64>().expect("a number") + 1.0);
+        }
+        cells.join(",") + "\n"
+    });
+    let high = in_folder(&folder, "high.csv");
+    fs::write(&high, shifted.collect::<String>()).expect("a file");
+    assert!(judged(&high).contains("differs"));
+    let wrong: Vec<_> = figures().into_iter().filter(|figure| figure["agrees"] == false).collect();
+    assert!(wrong.iter().any(|figure| figure["figure"] == "median height") && wrong.len() >= 7, "{wrong:?}");
+    let other = carom(&["judge", &path, "--scene", "paper-0", "--crowd", &table]).fails_with(2);
+    assert!(other.err.contains("no setting of paper-0"), "{}", other.err);
+    let broken = carom(&["judge", &path, "--scene", "bouncing-49", "--crowd", &path]).fails_with(2);
+    assert!(broken.err.contains("run.csv:1: these are not the columns of the table of a crowd"), "{}", broken.err);
+}
+
+#[test]
+fn rows_of_all_spheres_are_read_as_rows_of_one_are() {
+    let folder = folder();
+    let long = states(&folder, "long.csv", &["paper-3", "--method", "exact"]);
+    let text = fs::read_to_string(&long).expect("states");
+    let spheres = text.lines().skip(1).filter(|row| row.starts_with("0.0,")).count();
+    let names = ["x", "y", "z", "vx", "vy", "vz"];
+    let mut wide = String::from("time");
+    (0..spheres).for_each(|i| names.iter().for_each(|name| wide += &format!(",{name}{i}")));
+    let rows: Vec<&str> = text.lines().skip(1).collect();
+    for moment in rows.chunks(spheres) {
+        wide += "\n";
+        wide += moment[0].split(',').next().expect("a time");
+        moment.iter().for_each(|row| row.splitn(3, ',').skip(2).for_each(|cells| wide += &format!(",{cells}")));
+    }
+    let path = in_folder(&folder, "wide.csv");
+    fs::write(&path, wide + "\n").expect("a file");
+    let judged = |file: &str| {
+        let ran = carom(&["judge", file, "--scene", "paper-3", "--until", "2", "--tolerance", "1e-9"]).succeeds();
+        ran.out.lines().skip(1).map(|line| line.replace("wide.csv", "long.csv")).collect::<Vec<_>>()
+    };
+    assert_eq!(judged(&path), judged(&long));
+}
