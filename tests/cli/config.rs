@@ -145,14 +145,14 @@ fn the_option_wins_over_the_variable_and_both_over_the_usual_place() {
     fs::write(in_folder(&folder, "mine.ron"), &shown).expect("a file");
     let home = folder.path().to_str().expect("text");
     let name = |scene: &str| carom::scene::open(scene).expect("built in").scene.name.clone();
-    assert_eq!(first_line(None, &[]), name("paper-0"), "no file anywhere");
+    assert_eq!(first_line(None, &[]), name("billiard"), "no file anywhere");
     let xdg = ("XDG_CONFIG_HOME", home);
     assert_eq!(first_line(None, &[xdg]), name("paper-1"));
     assert_eq!(first_line(None, &[xdg, ("CAROM_CONFIG", "")]), name("paper-1"), "empty is unset");
     let variable = ("CAROM_CONFIG", by_variable.as_str());
     assert_eq!(first_line(None, &[xdg, variable]), name("stack"));
     assert_eq!(first_line(Some(&by_option), &[xdg, variable]), name("zeno"), "beside the configuration");
-    assert_eq!(first_line(Some("/dev/null"), &[xdg, variable]), name("paper-0"), "no configuration");
+    assert_eq!(first_line(Some("/dev/null"), &[xdg, variable]), name("billiard"), "no configuration");
     let mut help = command(&["--help"]);
     help.env("XDG_CONFIG_HOME", home);
     let said = Ran::from(watch::output(&mut help)).succeeds().out;
