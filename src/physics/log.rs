@@ -25,7 +25,20 @@ pub(crate) struct Log {
     pub(crate) resting: Vec<Key>,
 }
 
+/// Most contacts that a frame lists, a hundred megabytes: a chain of impacts at one instant may have more, which are
+/// counted and told as events all the same.
+const MOST_ROWS: usize = 1 << 20;
+
 impl Log {
+    /// Tells a row of an event-driven method: as an event, and in the list of the frame's contacts up to a million.
+    #[inline(always)]
+    pub(crate) fn tell(&mut self, row: Contact) {
+        self.event(row);
+        if self.contacts.len() < MOST_ROWS {
+            self.contacts.push(row);
+        }
+    }
+
     /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be asked to).
     #[inline(always)]
     pub(crate) fn event(&mut self, row: Contact) {

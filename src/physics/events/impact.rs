@@ -11,18 +11,11 @@ use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::Stall;
 
-/// Most contacts that a frame lists, a hundred megabytes: a chain of impacts at one instant may have more, which are
-/// counted and told as events all the same.
-const MOST_ROWS: usize = 1 << 20;
-
 /// Tells the log of an impact.
 #[inline(always)]
 pub(super) fn note(log: &mut Log, row: Contact) {
     log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
-    log.event(row);
-    if log.contacts.len() < MOST_ROWS {
-        log.contacts.push(row);
-    }
+    log.tell(row);
 }
 
 impl Mechanics {

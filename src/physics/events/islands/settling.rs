@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::equilibrium::{Settled, solve_island};
 use super::resting::{Curve, Island, IslandContact, Other, closed};
-use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::contact::{Class, Key, Kind};
 use crate::physics::events::changed::Changed;
 use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::bodies::Body;
@@ -49,10 +49,10 @@ impl Mechanics {
             if untold > 0.0 {
                 // its bounces were not over: what has stopped and carried it would stand nowhere
                 let stopped = ContactState { v_n: held.v_n, ..meeting };
-                tell(log, stopped.row(now, Class::Rest, untold, 0.0));
+                log.tell(stopped.row(now, Class::Rest, untold, 0.0));
             }
             if held.announced || untold > 0.0 {
-                tell(log, meeting.row(now, Class::Release, 0.0, meeting.v_n));
+                log.tell(meeting.row(now, Class::Release, 0.0, meeting.v_n));
             }
         }
         self.set_free(model, key);
@@ -334,7 +334,7 @@ impl Mechanics {
             }
             meeting.v_n = if struck { settled.v_n[index] } else { held.v_n };
             (held.announced, held.untold) = (true, 0.0);
-            tell(log, meeting.row(self.trajectories.now, Class::Rest, settled.impulses[index], 0.0));
+            log.tell(meeting.row(self.trajectories.now, Class::Rest, settled.impulses[index], 0.0));
         }
     }
 
@@ -368,12 +368,6 @@ impl Mechanics {
         );
         Stall { time: self.trajectories.now, kind: StallKind::RestingContact, reason }
     }
-}
-
-/// Tells the log of a rest that begins or ends.
-fn tell(log: &mut Log, row: Contact) {
-    log.contacts.push(row);
-    log.event(row);
 }
 
 /// Whether an impulse (N s) changes v_n by no more than one of the bounces that are summed up.
