@@ -4,7 +4,8 @@
 //! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture joints` is the whole campaign of one generator:
 //! `rooms`, `joints`, `funnels`, `tubes`, `stacks`, `crowds`, `units`. The ordinary suite runs the first few scenes of each, and
 //! those rooms that ever failed as far as that takes less than a second each; with `seeds` the campaign runs all that ever
-//! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed, `CAROM_CAMPAIGN_BUDGET` the turns after which a scene hangs.
+//! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed, `CAROM_CAMPAIGN_BUDGET` the turns after which a scene hangs;
+//! `CAROM_CAMPAIGN_SCENES` names a folder into which each scene that fails, or takes more than a second, is written.
 
 #[path = "campaign/crowds.rs"]
 mod crowds;
