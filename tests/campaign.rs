@@ -33,7 +33,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{Failure, Generator, Met};
-use mended::{LABORIOUS, MENDED, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES};
+use mended::{LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES};
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
 const ROOMS: Generator = Generator { scene: rooms::room_scene, halves: 20, budget: 20_000_000, boxed: true };
@@ -137,6 +137,7 @@ fn small_scenes_that_ever_failed_or_went_on_for_ever_stay_mended() {
         (&MENDED_TUBES, &TUBES),
         (&MENDED_STACKS, &STACKS),
         (&MENDED_JOINTS, &JOINTS),
+        (&MENDED_CROWDS, &CROWDS),
     ];
     for (seeds, generator) in mended {
         let (_, failures) = sweep(seeds, &|seed, halves, met| judged::check(generator, seed, halves, met));
