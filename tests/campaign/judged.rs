@@ -84,7 +84,7 @@ pub(crate) fn check(generator: &Generator, seed: u64, halves: u32, met: &mut Met
 }
 
 /// Writes a scene that is worth looking at where the environment asks for it, to be opened by the program.
-fn keep(scene: &Scene, seed: u64) {
+pub(crate) fn keep(scene: &Scene, seed: u64) {
     if let Some(folder) = std::env::var_os("CAROM_CAMPAIGN_SCENES") {
         let file = std::path::Path::new(&folder).join(format!("seed-{seed}.ron"));
         std::fs::write(&file, carom::scene::written(scene)).expect("the folder for scenes takes them");
