@@ -2,7 +2,7 @@
 //! hangs, stalls, overlaps, passes a wall, pulls or gains energy.
 //!
 //! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture joints` is the whole campaign of one generator:
-//! `rooms`, `joints`, `funnels`, `tubes`, `stacks`, `crowds`, `units`. The ordinary suite runs the first few scenes of each, and
+//! `rooms`, `joints`, `funnels`, `tubes`, `stacks`, `crowds`, `heaps`, `units`. The ordinary suite runs the first few scenes of each, and
 //! those rooms that ever failed as far as that takes less than a second each; with `seeds` the campaign runs all that ever
 //! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed, `CAROM_CAMPAIGN_BUDGET` the turns after which a scene hangs;
 //! `CAROM_CAMPAIGN_SCENES` names a folder into which each scene that fails, or takes more than a second, is written.
@@ -11,6 +11,8 @@
 mod crowds;
 #[path = "campaign/halves.rs"]
 mod halves;
+#[path = "campaign/heaps.rs"]
+mod heaps;
 #[path = "campaign/joints.rs"]
 mod joints;
 #[path = "campaign/judged.rs"]
@@ -50,6 +52,9 @@ const STACKS: Generator = small(narrow::stack_scene);
 
 /// Every frame is judged with hundreds of spheres: two seconds.
 const CROWDS: Generator = Generator { scene: crowds::crowd_scene, halves: 4, budget: 2_000_000, boxed: false };
+
+/// What settles costs its contacts: one and a half seconds.
+const HEAPS: Generator = Generator { scene: heaps::heap_scene, halves: 3, budget: 2_000_000, boxed: false };
 
 /// Slices of a thousand turns from which on a scene is told to have been laborious; or a second of the processor.
 const LABOUR: u64 = 200;
@@ -178,6 +183,11 @@ fn stacks_on_seams_pass_the_judge() {
 #[test]
 fn crowds_pass_the_judge() {
     judged_by(6, &CROWDS);
+}
+
+#[test]
+fn heaps_pass_the_judge() {
+    judged_by(12, &HEAPS);
 }
 
 #[test]

@@ -104,7 +104,7 @@ impl App {
         self.state.report.obeyed < self.state.worker.sent()
     }
 
-    /// Whether the run has obeyed every key so far and waits for the next, and the exact run beside it likewise.
+    /// Whether the run, and the exact run beside it, have obeyed every key so far and wait for the next.
     pub fn settled(&self) -> bool {
         let compared = |comparison: &Comparison| comparison.is_settled(self.state.report.snapshot.t);
         let obeyed =

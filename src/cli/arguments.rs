@@ -132,7 +132,7 @@ pub(super) struct Run {
     /// Write times, positions and velocities; JSON lines if it ends in .jsonl, else CSV; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) states: Option<Target>,
-    /// Write collisions, rests and releases, likewise
+    /// Write collisions, rests and releases; JSON lines if it ends in .jsonl, else CSV; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) events: Option<Target>,
     /// Have an independent judge look at every frame and event; exit code 1 if it finds anything

@@ -322,7 +322,7 @@ impl Solver {
         }
     }
 
-    /// u = u_without + s (u_with − u_without), with Σ m u² = what is allowed, and likewise the impulses.
+    /// u = u_without + s (u_with − u_without), with Σ m u² = what is allowed; impulses by the same share.
     fn take_means(&mut self, model: &Model) {
         for gain in self.gains.iter().filter(|gain| !gain.u.is_empty()) {
             let (mut without, mut mixed, mut change) = (0.0, 0.0, 0.0);
