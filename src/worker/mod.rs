@@ -10,7 +10,7 @@
 //! | `thread` | the worker, seen from its reader |
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
 //! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
-//! | `course`, `keyframes` | the run and its past; what of it is kept |
+//! | `course`, `keyframes`, `replay_cost` | the run and its past; what of it is kept; what a frame costs to be done again |
 //! | `tape`, `recorder` | a recording under way, and one that is followed |
 //! | `around` | what was shortly before, and what comes next of a sphere |
 //! | `exact_follower` | the exact run that follows the run shown |
@@ -29,6 +29,7 @@ mod mailbox;
 mod message;
 mod pace;
 mod recorder;
+mod replay_cost;
 mod run;
 mod slot;
 mod stop;

@@ -381,7 +381,6 @@ impl Runner {
             self.moved = true;
         }
         self.unreported = true;
-        self.course.note_work(took, || self.clock.elapsed().as_secs_f64());
         if std::mem::take(&mut self.frame_is_over) {
             self.events.clear();
         }
@@ -397,8 +396,7 @@ impl Runner {
                 self.arrive();
                 self.tell_found();
             }
-            Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
-            Progress::Yielded => {}
+            Progress::Yielded => self.slices.learn(took),
             Progress::Stalled(_) => {
                 self.give_takers();
                 self.goal = Goal::Nowhere;
