@@ -49,6 +49,10 @@ pub(super) enum Sought {
     Event(Logged),
     /// Whatever impact comes: what collides is selected.
     Impact,
+    /// A time.
+    Time,
+    /// The impact that a newcomer sees first: it is selected, and what is said of it is already there.
+    FirstLook,
 }
 
 /// A trial step of a frame's search, to be drawn as often as need be.

@@ -88,7 +88,7 @@ impl Of<'_> {
         let (speed, limit) = (measured(v_n), number(0.0 - slow)); // without the sign of −0
         let reason = self.snapshot.rest_reasons.get(self.index).copied().flatten();
         let text = match (self.contact.class, reason) {
-            (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s: it collides"),
+            (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s"),
             (Class::Rest, Some(reason)) => format!("it rests: {}", reason.words()),
             (Class::Rest, None) if v_n.abs() <= slow => {
                 let (speed, slow) = (measured(v_n.abs()), number(slow));
