@@ -192,7 +192,7 @@ impl State {
         match (&self.open, self.report.activity) {
             (Open::Scenes(_), _) => Place::List,
             (Open::Help { .. }, _) => Place::Help,
-            (Open::Events(_), _) => Place::Events,
+            (Open::Events(list), _) => Place::Events { narrowed: !list.typed().is_empty() },
             _ if self.report.kept.is_past => Place::Past,
             (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
             _ => Place::Run,

@@ -4,6 +4,8 @@
 //! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
 //! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
 
+mod acting;
+mod nearby;
 mod scout;
 mod taken;
 
@@ -18,6 +20,7 @@ use crate::{
     scene::{Method, Settings},
     snapshot::Kept,
 };
+use acting::Acting;
 use scout::Scout;
 
 /// Changes that are remembered: more than a hand makes in hours. When there are more, the history begins anew.
@@ -43,6 +46,7 @@ struct Newest {
     simulation: Simulation,
     stall: Option<Stall>,
     whole: bool,
+    acting: Acting,
 }
 
 /// A run and its past.
@@ -80,6 +84,8 @@ pub(super) struct Course {
     found: Option<Found>,
     /// What has happened again and was not told yet.
     passed: Vec<Contact>,
+    /// What acts over the frame shown, or in progress, from the one before.
+    acting: Acting,
 }
 
 impl Course {
@@ -109,6 +115,7 @@ impl Course {
             script,
             found,
             passed: Vec::new(),
+            acting: Acting::default(),
         }
     }
 
@@ -249,7 +256,8 @@ impl Course {
             if !self.whole {
                 return progress;
             }
-            done += self.keyframes.look(&self.simulation, self.changed);
+            let acts = self.is_acted_on();
+            done += self.keyframes.look(&self.simulation, (self.changed, acts));
             let there = until == Until::Frame || matches!(until, Until::Time(t) if t <= self.time());
             if there || progress != Progress::Reached || done > CALL || frame_by_frame {
                 return progress;
@@ -261,6 +269,7 @@ impl Course {
     fn advance_a_leg(&mut self, until: Until, work: u64) -> Progress {
         self.make_due(false);
         self.leave_script();
+        self.note_acting();
         let before = self.frame();
         let until = self.leg(until);
         let progress = self.simulation.advance(until, work);
@@ -302,44 +311,16 @@ impl Course {
         self.frame_by_frame || self.waiting.is_some() || self.tape.is_some() || follows()
     }
 
-    /// Keeps what comes shortly before the frame that the run is on its way to: the next step back is quick then.
-    fn keep_on_the_way(&mut self) {
-        let frame = self.frame();
-        let Some((target, meter)) = &mut self.toward else { return };
-        if !self.whole || frame >= *target || frame + RECENT < *target {
-            return;
-        }
-        let mut since = *meter;
-        let work = since.read(&self.simulation);
-        if work > CLOSE {
-            *meter = since;
-            self.keyframes.insert(&self.simulation, self.changed, work);
+    /// What acts over the next frame, if none is in progress.
+    fn note_acting(&mut self) {
+        if self.whole {
+            self.acting.note(&self.simulation);
         }
     }
 
-    /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
-    /// `work`; whether there is more to do. `clock` tells the time, s.
-    pub(super) fn scout(&mut self, work: u64, clock: impl Fn() -> f64) -> bool {
-        let shown = self.frame();
-        let Some(scout) = self.scout.as_mut().filter(|scout| scout.shown == shown) else {
-            self.scout = self.send_scout(shown);
-            return self.scout.is_some();
-        };
-        if !scout.goes_home(work, clock) {
-            return true;
-        }
-        self.scouted = Some(shown);
-        if let Some((run, changes, work)) = self.scout.take().and_then(|scout| scout.found()) {
-            self.keyframes.insert(&run, changes, work);
-        }
-        false
-    }
-
-    fn send_scout(&self, shown: u64) -> Option<Box<Scout>> {
-        let kept = self.keyframes.lacking_before(shown).filter(|_| self.scouted != Some(shown))?;
-        let target = shown - RECENT;
-        let change = self.changes.get(kept.changes).map_or(u64::MAX, |change| change.frame);
-        (change > target).then(|| Box::new(Scout::toward(target, shown, kept)))
+    /// Impacts of the frame before whose impulses have acted over the frame shown.
+    pub(super) fn acting(&self) -> &[Contact] {
+        self.acting.over(&self.simulation)
     }
 
     /// Does again what was done from here on, up to the goal or the next change.
@@ -353,10 +334,10 @@ impl Course {
             self.apply(change.settings);
         } else {
             let next = self.changes.get(self.changed).map_or(f64::INFINITY, |change| change.time);
+            let seen = self.frame_by_frame || self.simulation.settings().method == Method::Paper;
+            self.note_acting();
             let until = match until {
-                Until::Time(t) if !self.frame_by_frame && t.min(next) > self.simulation.time() => {
-                    Until::Time(t.min(next))
-                }
+                Until::Time(t) if !seen && t.min(next) > self.simulation.time() => Until::Time(t.min(next)),
                 _ => Until::Frame,
             };
             let progress = self.simulation.advance(until, work);
@@ -393,8 +374,9 @@ impl Course {
     /// Goes back to the newest frame.
     pub(super) fn take_up(&mut self) {
         if let Some(newest) = self.newest.take() {
-            let Newest { simulation, stall, whole } = *newest;
+            let Newest { simulation, stall, whole, acting } = *newest;
             (self.simulation, self.stall, self.whole) = (simulation, stall, whole);
+            self.acting = acting;
             self.changed = self.changes.len();
         }
     }
@@ -447,8 +429,9 @@ impl Course {
     fn put_aside(&mut self, run: Simulation, changes: usize) {
         let before = std::mem::replace(&mut self.simulation, run);
         let (stall, whole) = (self.stall.take(), std::mem::replace(&mut self.whole, true));
+        let acting = std::mem::take(&mut self.acting);
         if self.newest.is_none() {
-            self.newest = Some(Box::new(Newest { simulation: before, stall, whole }));
+            self.newest = Some(Box::new(Newest { simulation: before, stall, whole, acting }));
         }
         (self.waiting, self.changed) = (None, changes);
         self.catch_up();

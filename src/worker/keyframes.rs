@@ -51,15 +51,16 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// A run between two frames, with the number of recorded changes it includes; none if it is too large.
-    fn of(run: &Simulation, changes: usize) -> Option<Kept> {
+    /// A run between two frames, with the number of recorded changes it includes, and whether the frame before acts over the
+    /// one that has ended; none if it is too large.
+    fn of(run: &Simulation, (changes, acts): (usize, bool)) -> Option<Kept> {
         if run.model().len() * size_of::<[f64; 6]>() > LARGEST {
             return None; // it need not be tried
         }
         let keyframe = run.keyframe();
         let tallies = run.tallies();
         let (frame, impacts) = (tallies.frames, tallies.impacts);
-        let has_inside = frame > 0 && shows_trials(run);
+        let has_inside = frame > 0 && (shows_trials(run) || acts);
         let kept = Kept { frame, time: run.time(), impacts, changes, has_inside, gap: 0, keyframe };
         (kept.keyframe.bytes() <= LARGEST).then_some(kept)
     }
@@ -97,7 +98,7 @@ impl Keyframes {
     /// Those of a run that is between two frames: this one, if it is not too large.
     pub(super) fn of(run: &Simulation) -> Keyframes {
         let mut keyframes = Keyframes::none(run);
-        keyframes.keep(run, 0);
+        keyframes.keep(run, (0, false));
         keyframes
     }
 
@@ -140,8 +141,8 @@ impl Keyframes {
     }
 
     /// The run is between two frames, its newest: keeps it if it is time to, with the number of recorded changes it
-    /// includes. Asked at every frame; what that has cost, ns of counted work.
-    pub(super) fn look(&mut self, run: &Simulation, changes: usize) -> u64 {
+    /// includes, and whether the frame before acts over the one that has ended. Asked at every frame; what that has cost, ns of counted work.
+    pub(super) fn look(&mut self, run: &Simulation, told: (usize, bool)) -> u64 {
         let frame = run.tallies().frames;
         if self.too_large || frame <= self.looked {
             return 0;
@@ -150,14 +151,14 @@ impl Keyframes {
         let work = self.meter.read(run);
         self.since = self.since.saturating_add(work);
         if self.since >= self.spacing || self.list.is_empty() {
-            self.keep(run, changes);
+            self.keep(run, told);
         }
         work
     }
 
     /// Keeps a run between two frames, behind all others.
-    fn keep(&mut self, run: &Simulation, changes: usize) {
-        let Some(mut kept) = Kept::of(run, changes) else {
+    fn keep(&mut self, run: &Simulation, told: (usize, bool)) {
+        let Some(mut kept) = Kept::of(run, told) else {
             self.too_large = true;
             return;
         };
@@ -173,10 +174,10 @@ impl Keyframes {
 
     /// Keeps a run between two frames, its newest, as if it had worked so much more (ns).
     #[cfg(test)]
-    pub(super) fn keep_now(&mut self, run: &Simulation, changes: usize, work: u64) {
+    pub(super) fn keep_now(&mut self, run: &Simulation, told: (usize, bool), work: u64) {
         if self.list.last().is_none_or(|last| last.frame < run.tallies().frames) {
             self.since += self.meter.read(run) + work;
-            self.keep(run, changes);
+            self.keep(run, told);
         }
     }
 
@@ -194,10 +195,10 @@ impl Keyframes {
 
     /// Keeps a run at its place among the others, so much work (ns) after the one before, unless that frame is kept, or there
     /// is no room but that of frames that would be lost.
-    pub(super) fn insert(&mut self, run: &Simulation, changes: usize, work: u64) {
+    pub(super) fn insert(&mut self, run: &Simulation, told: (usize, bool), work: u64) {
         let frame = run.tallies().frames;
         let is_kept = self.list.binary_search_by_key(&frame, |other| other.frame).is_ok();
-        let Some(mut kept) = Kept::of(run, changes).filter(|_| !is_kept) else { return };
+        let Some(mut kept) = Kept::of(run, told).filter(|_| !is_kept) else { return };
         if self.bytes + kept.keyframe.bytes() > self.room && !self.thin_out() {
             return;
         }
@@ -308,7 +309,7 @@ mod tests {
         for _ in 0..frames {
             assert_eq!(run.advance(Until::Frame, 1 << 30), Progress::Reached);
             keyframes.since += gap;
-            keyframes.keep(&run, 0);
+            keyframes.keep(&run, (0, false));
             assert!(keyframes.bytes <= BUDGET);
         }
         (keyframes, run)
@@ -347,7 +348,7 @@ mod tests {
         assert_eq!(keyframes.bytes, keyframes.list.iter().map(|kept| kept.keyframe.bytes()).sum::<usize>());
         assert_eq!(keyframes.before(7).map(|kept| kept.frame), Some(7));
         back.advance(Until::Frame, 1 << 30);
-        keyframes.look(&back, 0);
+        keyframes.look(&back, (0, false));
         assert_eq!(keyframes.list.last().map(|kept| kept.frame), Some(21));
         assert!(run.tallies().frames > 21);
     }
@@ -358,9 +359,9 @@ mod tests {
         let (mut kept, mut since) = (1, 0);
         for _ in 0..3000 {
             assert_eq!(run.advance(Until::Frame, 1 << 30), Progress::Reached);
-            since += keyframes.look(&run, 0);
+            since += keyframes.look(&run, (0, false));
             let is_due = since >= keyframes.spacing;
-            assert_eq!(keyframes.look(&run, 0), 0, "a frame is looked at once");
+            assert_eq!(keyframes.look(&run, (0, false)), 0, "a frame is looked at once");
             if keyframes.list.len() > kept {
                 assert!(since >= SPACING, "too early: {since} ns");
                 (kept, since) = (kept + 1, 0);

@@ -415,7 +415,8 @@ impl Runner {
             }
             let snapshot = Snapshot::of(&self.course.job().stage, run, self.course.stall());
             let alarm = until(both(&self.alarm, self.watch.alarm()), snapshot.t);
-            self.snapshot = Arc::new(Snapshot { alarm, ..snapshot });
+            let acting = self.course.acting().to_vec();
+            self.snapshot = Arc::new(Snapshot { alarm, acting, ..snapshot });
         }
         self.moved = false;
         self.unreported = false;

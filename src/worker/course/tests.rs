@@ -60,7 +60,8 @@ impl Walk {
 
     /// All that is shown of the frame at which the run is.
     fn told(&self) -> Snapshot {
-        Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall())
+        let told = Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall());
+        Snapshot { acting: self.course.acting().to_vec(), ..told }
     }
 
     fn look(&mut self) {
@@ -79,7 +80,8 @@ impl Walk {
     /// Keyframes some thirty frames apart, beside those that the work asks for.
     fn keep_now_and_then(&mut self) {
         if self.below(30) == 0 && self.course.whole && !self.course.is_past() {
-            self.course.keyframes.keep_now(&self.course.simulation, self.course.changed, 0);
+            let told = (self.course.changed, self.course.is_acted_on());
+            self.course.keyframes.keep_now(&self.course.simulation, told, 0);
         }
     }
 
@@ -91,7 +93,8 @@ impl Walk {
             let work = 1 + self.below(200);
             let progress = self.course.advance(Until::Frame, work);
             if self.below(50) == 0 && self.course.whole && self.course.is_past() {
-                self.course.keyframes.insert(&self.course.simulation, self.course.changed, 0);
+                let told = (self.course.changed, self.course.is_acted_on());
+                self.course.keyframes.insert(&self.course.simulation, told, 0);
             }
             assert!(!matches!(progress, Progress::Stalled(_)) && self.course.frame() <= frame, "{name}: {progress:?}");
         }
@@ -260,7 +263,7 @@ fn while_nothing_else_is_to_do_a_keyframe_is_put_before_the_last_frames() {
         walk.look();
     }
     // all of them, as far as is known, are too much to be done again for a frame
-    walk.course.keyframes.keep_now(&walk.course.simulation, walk.course.changed, CLOSE + 1);
+    walk.course.keyframes.keep_now(&walk.course.simulation, (walk.course.changed, false), CLOSE + 1);
     let settings = Settings { tolerance: 1e-5, ..walk.course.settings() };
     walk.course.set(settings);
     walk.look();
