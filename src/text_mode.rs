@@ -52,7 +52,8 @@ pub fn tell(scene: &Scene, settings: Settings, out: &mut impl Write, keep_on: im
         }
         Progress::Reached => {
             teller.tell(&mut simulation, false)?;
-            teller.watch.state(simulation.model(), &simulation.at(scene.duration), 0);
+            let end = simulation.at(scene.duration);
+            teller.watch.state(simulation.model(), (&end, simulation.hidden_energy_at(&end)), 0);
             teller.warn()?;
             conclude(scene, &simulation, teller.impacts, teller.out)
         }

@@ -4,7 +4,8 @@
 //! `CAROM_CAMPAIGN=20000 cargo test --release --test campaign -- --nocapture joints` is the whole campaign of one generator:
 //! `rooms`, `joints`, `funnels`, `tubes`, `stacks`, `crowds`, `units`. The ordinary suite runs the first few scenes of each, and
 //! those rooms that ever failed as far as that takes less than a second each; with `seeds` the campaign runs all that ever
-//! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed, `CAROM_CAMPAIGN_BUDGET` the turns after which a scene hangs.
+//! failed once more. `CAROM_CAMPAIGN_FROM` sets the first seed, `CAROM_CAMPAIGN_BUDGET` the turns after which a scene hangs;
+//! `CAROM_CAMPAIGN_SCENES` names a folder into which each scene that fails, or takes more than a second, is written.
 
 #[path = "campaign/crowds.rs"]
 mod crowds;
@@ -32,7 +33,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{Failure, Generator, Met};
-use mended::{LABORIOUS, MENDED, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES};
+use mended::{LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES};
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
 const ROOMS: Generator = Generator { scene: rooms::room_scene, halves: 20, budget: 20_000_000, boxed: true };
@@ -136,6 +137,7 @@ fn small_scenes_that_ever_failed_or_went_on_for_ever_stay_mended() {
         (&MENDED_TUBES, &TUBES),
         (&MENDED_STACKS, &STACKS),
         (&MENDED_JOINTS, &JOINTS),
+        (&MENDED_CROWDS, &CROWDS),
     ];
     for (seeds, generator) in mended {
         let (_, failures) = sweep(seeds, &|seed, halves, met| judged::check(generator, seed, halves, met));

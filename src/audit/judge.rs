@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::physics::contact::Key;
-use crate::physics::{Class, Contact, Model, Settings, Simulation, State};
+use crate::physics::{Class, Contact, Method, Model, Settings, Simulation, State};
 
 use super::energy::Energy;
 use super::finding::{Bodies, Fault, Findings};
@@ -71,7 +71,9 @@ impl Judge {
         self.overlaps.passages(model, &self.before, state, self.settings.method, found);
         let held = self.overlaps.held(model, contacts);
         events.iter().for_each(|row| law::judge(model, self.settings.method, row, found));
-        contacts.iter().for_each(|row| law::judge_place(model, promise, state, row, found));
+        // what moreau strikes it meets within the frame, not at its end
+        let placed = |row: &&Contact| self.settings.method != Method::Moreau || row.class != Class::Collide;
+        contacts.iter().filter(placed).for_each(|row| law::judge_place(model, promise, state, row, found));
         law::judge_friction(model, contacts, &held, state.t, found);
         rest::judge(model, &self.settings, frame, found);
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
@@ -84,11 +86,11 @@ impl Judge {
         self.answered.extend_from_slice(contacts);
     }
 
-    /// Judges a state within the last frame: only its overlaps and its energy.
-    pub fn state(&mut self, model: &Model, state: &State, contacts: &[Contact]) {
+    /// Judges a state within the last frame, and what is hidden of its energy (J): only its overlaps and its energy.
+    pub fn state(&mut self, model: &Model, (state, hidden): (&State, f64), contacts: &[Contact]) {
         let promise = Promise::of(&self.settings);
         self.overlaps.look(model, state, contacts, promise, &mut self.findings);
-        self.energy.look(model, (state, 0.0), 0, None, &mut self.findings);
+        self.energy.look(model, (state, hidden), 0, None, &mut self.findings);
     }
 
     /// What was found so far.

@@ -120,9 +120,9 @@ impl Watch {
         self.see(model, (&state, simulation.hidden_energy()), struck);
     }
 
-    /// Looks at a state that shows all its energy, before which `impacts` have happened since the last one.
-    pub fn state(&mut self, model: &Model, state: &State, impacts: u64) {
-        self.see(model, (state, 0.0), impacts);
+    /// Looks at a state and what is hidden of its energy (J), before which `impacts` have happened since the last one.
+    pub fn state(&mut self, model: &Model, (state, hidden): (&State, f64), impacts: u64) {
+        self.see(model, (state, hidden), impacts);
     }
 
     fn see(&mut self, model: &Model, (state, hidden): (&State, f64), impacts: u64) {

@@ -55,6 +55,7 @@ impl Jury {
 
     /// The last state of the run.
     pub(super) fn close(&mut self, simulation: &Simulation, end: &State) {
+        let end = (end, simulation.hidden_energy_at(end));
         self.watch.state(simulation.model(), end, 0);
         if let Some(judge) = &mut self.judge {
             judge.state(simulation.model(), end, simulation.contacts());

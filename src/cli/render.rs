@@ -112,7 +112,7 @@ fn reach(opened: &Opened, settings: Settings, at: f64, signals: &Signals) -> Res
     let whole = Snapshot::of(&stage, &simulation, stall.as_ref());
     let shown = cut(whole, &simulation, at, impacts);
     let state = State { t: shown.t, x: shown.x.clone(), v: shown.v.clone() };
-    watch.state(simulation.model(), &state, shown.tallies.impacts);
+    watch.state(simulation.model(), (&state, simulation.hidden_energy_at(&state)), shown.tallies.impacts);
     Ok(Shown { snapshot: Snapshot { alarm: *watch.alarm(), ..shown }, ticks, stall, card: None })
 }
 

@@ -19,6 +19,9 @@ use crate::roots::{bound, bracketed, monotone, quadratic_fall, value};
 /// An approach that would go no deeper than this, relative to the coordinates, before it turns back is none: 8 ulp.
 const GRAZE: f64 = 8.0 * f64::EPSILON;
 
+/// Square of a distance over that of the sum of the radii from which a pair is far: 1e-13 radii of ε x²/reach²/2.
+const FAR: f64 = 1e3;
+
 /// The times t in [0, before) from which a quartic is ≤ 0 while falling, one for each stretch on which it falls.
 fn quartic_falls(c: &[f64; 5], before: f64) -> ([f64; 3], usize) {
     let mut falls = [0.0; 3];
@@ -68,8 +71,19 @@ pub fn straight_pair(x: DVec3, v: DVec3, reach: f64) -> Option<f64> {
         let path = Path { x, v, a: DVec3::ZERO };
         return (closing < 0.0 && !pair_grazes(&path, closing)).then_some(0.0);
     }
-    let discriminant = b * b - v.length_squared() * c;
+    let discriminant = if is_far(c, reach) {
+        reach * reach * v.length_squared() - x.cross(v).length_squared()
+    } else {
+        b * b - v.length_squared() * c
+    };
     (discriminant > 0.0).then(|| c / (discriminant.sqrt() - b))
+}
+
+/// Whether spheres of which c = x² − `reach`² (m²) are so far from each other that b² − v² c cancels: it would be off by
+/// ε x²/reach² of itself, and the gap at the time found by half as much, in radii; v² reach² − |x × v|² by ε |x|/reach.
+#[inline]
+pub(super) fn is_far(c: f64, reach: f64) -> bool {
+    c > FAR * (reach * reach)
 }
 
 /// An approach at one moment, as far as its turning into a retreat depends on it.

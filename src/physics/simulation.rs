@@ -257,6 +257,15 @@ impl Simulation {
         }
     }
 
+    /// The same of a state of [`Simulation::at`], J: within a frame of `moreau`, what its spheres still gain by falling until the
+    /// frame ends, with the velocities that they have there; otherwise 0.
+    pub fn hidden_energy_at(&self, state: &State) -> f64 {
+        match &self.engine {
+            Engines::Moreau(engine) => engine.hidden_energy_at(&self.model, state),
+            Engines::Paper(_) | Engines::Swept(_) | Engines::Exact(_) => 0.0,
+        }
+    }
+
     /// Σ ½ m v² − m g·x − F·x at t = 0, J.
     pub fn initial_energy(&self) -> f64 {
         self.initial_energy

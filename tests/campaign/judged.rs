@@ -76,8 +76,19 @@ pub(crate) fn check(generator: &Generator, seed: u64, halves: u32, met: &mut Met
     met.curved_time = run.tallies().inexact_time;
     met.hash = run.state().hash();
     met.resting.clear();
+    if verdict.is_err() || met.slow > 0 {
+        keep(&scene, seed);
+    }
     verdict
         .map_err(|failure| Failure { text: format!("seed {seed} at t = {}: {}", run.time(), failure.text), ..failure })
+}
+
+/// Writes a scene that is worth looking at where the environment asks for it, to be opened by the program.
+pub(crate) fn keep(scene: &Scene, seed: u64) {
+    if let Some(folder) = std::env::var_os("CAROM_CAMPAIGN_SCENES") {
+        let file = std::path::Path::new(&folder).join(format!("seed-{seed}.ron"));
+        std::fs::write(&file, carom::scene::written(scene)).expect("the folder for scenes takes them");
+    }
 }
 
 pub(crate) fn fail(kind: &str, text: String) -> Result<(), Failure> {

@@ -43,3 +43,6 @@ pub(crate) const MENDED_TUBES: [(u64, u32); 14] = [
 
 /// Joints where the judge took the edge beside the foot for the closest point.
 pub(crate) const MENDED_JOINTS: [(u64, u32); 3] = [(1778, 2), (3125, 3), (3416, 3)];
+
+/// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance.
+pub(crate) const MENDED_CROWDS: [(u64, u32); 3] = [(153, 3), (205, 3), (262, 3)];

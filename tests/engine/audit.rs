@@ -159,13 +159,13 @@ fn the_watch_alarms_with_time_and_bodies() {
     let run = Simulation::new(&scene(G, PAPER_LAW, vec![floor], vec![sphere(DVec3::Y, DVec3::X, 0.5)]), EXACT);
     let mut watch = Watch::new(&run);
     let state = |t: f64, y: f64, v: DVec3| State { t, x: vec![dvec3(0.0, y, 0.0)], v: vec![v] };
-    watch.state(run.model(), &state(0.1, 0.6, DVec3::ZERO), 0);
+    watch.state(run.model(), (&state(0.1, 0.6, DVec3::ZERO), 0.0), 0);
     assert!(watch.alarm().is_silent(), "{:?}", watch.alarm());
-    watch.state(run.model(), &state(0.2, 0.4, DVec3::ZERO), 0);
+    watch.state(run.model(), (&state(0.2, 0.4, DVec3::ZERO), 0.0), 0);
     let overlap = watch.alarm().overlap.expect("a fifth of the radius is an overlap");
     assert_eq!((overlap.time, overlap.bodies), (0.2, Bodies::Wall(0, 0)));
     assert!((overlap.value - 0.2).abs() < 1e-12 && watch.alarm().energy.is_none());
-    watch.state(run.model(), &state(0.3, 0.5, DVec3::X * 9.0), 0);
+    watch.state(run.model(), (&state(0.3, 0.5, DVec3::X * 9.0), 0.0), 0);
     assert_eq!(watch.alarm().energy.map(|energy| energy.time), Some(0.3));
     assert_eq!(watch.alarm().words(), "overlap,energy");
 }
@@ -177,7 +177,7 @@ fn spheres_that_overlap_far_from_the_first_are_found_among_many() {
     let mut state = run.state();
     state.x[700] = state.x[999] + dvec3(0.19, 0.0, 0.0);
     let mut judge = Judge::new(run.model(), EXACT, &run.state());
-    judge.state(run.model(), &state, &[]);
+    judge.state(run.model(), (&state, 0.0), &[]);
     let found = judge.findings().rows();
     assert!(found.iter().any(|row| row.fault == Fault::Overlap && row.bodies == Bodies::Pair(700, 999)), "{found:?}");
     assert!(run.contacts().iter().all(|row| row.kind == Kind::Wall), "nothing else touches");

@@ -233,3 +233,22 @@ fn a_slide_over_the_edge_where_the_next_wall_leads_down_is_no_approach() {
         assert_eq!(found, None, "seed {seed}: the edge is reached at {}", way / speed);
     }
 }
+
+#[test]
+fn small_spheres_that_come_from_afar_touch_to_rounding_when_they_meet() {
+    let mut random = Random(7);
+    for _ in 0..10_000 {
+        let reach = random.decade(-9.0, -2.0);
+        let (from, speed) = (random.vector().normalize() * random.between(1.0, 10.0), random.decade(-3.0, 3.0));
+        let aside = random.vector().cross(from).normalize() * reach * random.between(0.0, 0.99);
+        let path = Path { x: from + aside, v: from * -speed, a: DVec3::ZERO };
+        let t = sphere_sphere(&path, reach, f64::INFINITY).expect("they meet: aside by less than their radii");
+        // Beside the centre the gap grows with the tangent of the angle under which they meet: at 0.99 it is 7.
+        let gap = path.at(t).length() - reach;
+        assert!(
+            gap.abs() <= 64.0 * f64::EPSILON * path.x.length(),
+            "gap {gap} m of {reach} m from {} m",
+            path.x.length()
+        );
+    }
+}

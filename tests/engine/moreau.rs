@@ -294,6 +294,44 @@ fn a_frame_is_a_whole_dt_and_is_read_on_the_straight_line_between_its_ends() {
 }
 
 #[test]
+fn a_state_within_a_frame_and_what_is_hidden_of_its_energy_make_that_of_the_frame_s_end() {
+    let falling: Vec<Sphere> = lattice(3, 1.1, dvec3(1.0, -5.0, 0.5), 0.5);
+    let scene = scene(G, HALF, room(DVec3::splat(-9.0), DVec3::splat(9.0)), falling);
+    let mut run = start(&scene, 0.01, 1e-3);
+    for _ in 0..300 {
+        run.advance(Until::Frame, u64::MAX);
+        let (end, energy) = (run.time(), run.state().energy(run.model()));
+        for share in [0.01, 0.3, 0.7, 0.99] {
+            let state = run.at(end - 0.01 * share);
+            let within = state.energy(run.model()) + run.hidden_energy_at(&state);
+            // Rounding of some 1e4 J.
+            assert!((within - energy).abs() <= 1e-10, "{within} J in the frame to {end} s, {energy} J at its end");
+        }
+    }
+}
+
+#[test]
+fn bodies_that_have_parted_since_the_last_frame_collide_again() {
+    // The second strikes the first, which is 1 mm away at the frame's end, bounces off the wall and meets the second at 5 m/s.
+    let law = ContactLaw { restitution: 0.1, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.1 };
+    let board = wall(DVec3::ZERO, DVec3::Y, DVec3::Z);
+    let spheres = vec![
+        sphere(dvec3(0.104, 0.0, 0.0), DVec3::ZERO, 0.1),
+        sphere(dvec3(0.3045, 0.0, 0.0), dvec3(-5.0, 0.0, 0.0), 0.1),
+    ];
+    let mut run = start(&scene(DVec3::ZERO, law, vec![board], spheres), 1e-3, 1e-6);
+    let mut speeds = Vec::new();
+    for _ in 0..3 {
+        run.advance(Until::Frame, u64::MAX);
+        assert!(run.contacts().iter().all(|row| row.class == Class::Collide), "{:?}", run.contacts());
+        speeds.extend(run.contacts().iter().filter(|row| row.kind == Kind::Pair).map(|row| row.approach_speed));
+    }
+    assert_eq!(speeds.len(), 2, "{speeds:?}");
+    // 5 (1 + 0.1)/2 back from the wall and 5 (1 − 0.1)/2 onwards; rounding of a few operations.
+    assert!((speeds[1] - 5.0).abs() < 1e-13, "{speeds:?}");
+}
+
+#[test]
 fn a_frame_in_which_everything_may_meet_is_refused_by_count_and_names_dt() {
     // 9261 spheres that fall 490 m in a frame: 4e7 pairs, a gigabyte of them.
     let below = wall(DVec3::NEG_Y * 25.5, DVec3::X * 20.0, DVec3::NEG_Z * 20.0);

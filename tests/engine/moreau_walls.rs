@@ -3,7 +3,7 @@
 use crate::random::Random;
 use crate::support::{G, PAPER_LAW, room, run_to, scene, sphere, wall};
 use carom::geometry::Parallelogram;
-use carom::physics::{Method, Progress, Scene, Settings, Simulation, Until};
+use carom::physics::{Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 
@@ -253,4 +253,20 @@ fn nothing_escapes_or_gains_energy_in_random_rooms_of_wedges_funnels_tubes_and_t
         faults.extend(fault(&hunted(seed), dt).map(|fault| format!("seed {seed}: {fault}")));
     }
     assert!(faults.is_empty(), "{} of {count}:\n{}", faults.len(), faults.join("\n"));
+}
+
+#[test]
+fn a_wall_that_is_not_struck_after_all_takes_nothing() {
+    // The first would strike the wall in this frame; the second strikes it from below and sends it up before.
+    let law = ContactLaw { restitution: 1.0, wall_restitution: 0.1, tangential: 0.0, rest_speed: 0.0 };
+    let spheres = vec![
+        sphere(dvec3(0.0, 0.101, 0.0), dvec3(1.0, -2.0, 1.0), 0.1),
+        sphere(dvec3(-0.1462, 0.06, 0.0), dvec3(10.0, 0.0, 0.0), 0.05),
+    ];
+    let mut run = start(&scene(DVec3::ZERO, law, one(), spheres), 1e-3);
+    run.advance(Until::Frame, u64::MAX);
+    assert_eq!(run.contacts().iter().map(|row| row.kind).collect::<Vec<_>>(), [Kind::Pair]);
+    let v = run.state().v;
+    // Their momentum is that of before; rounding of a few operations.
+    assert!((v[0].z + v[1].z - 1.0).abs() < 1e-14 && v[0].y > 0.0, "{v:?}");
 }

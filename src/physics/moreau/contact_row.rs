@@ -254,6 +254,8 @@ pub(super) struct Row {
     pub(super) time: f64,
     /// Whether it is a wall's face that is met.
     pub(super) face: bool,
+    /// What striking it has taken of the sphere's free velocity along the wall, m/s; opposite to that.
+    pub(super) rubbed: DVec3,
 }
 
 /// What rows are made from, beside their meeting: the same for all rows of a frame.
@@ -353,6 +355,7 @@ impl Row {
             impulse: carried,
             time: meeting.time,
             face: meeting.face,
+            rubbed: DVec3::ZERO,
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::Stall;
+use crate::physics::wall::Face;
 use crate::physics::{impact_law, overlap, wall};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
@@ -53,7 +54,12 @@ impl Moreau {
             Stage::Solve { round } => {
                 let (done, work) = self.solver.go_on(model, &self.free, &self.end.v, &self.rows);
                 if done {
-                    self.look_again(model, round + 1);
+                    self.solver.read_impulses(&mut self.rows);
+                    if self.give_back_rubbed() {
+                        self.solver.begin(model, &self.free, &self.rows);
+                    } else {
+                        self.look_again(model, round + 1);
+                    }
                 }
                 Ok(work)
             }
@@ -104,13 +110,14 @@ impl Moreau {
     /// Makes a row of two bodies if they meet.
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
         let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
-        let near = (round == 0).then(|| terms.near(model, key));
+        let near = terms.near(model, key);
+        let at_once = (round == 0).then_some(near);
         let found = match key.0 {
-            Kind::Pair => path.meeting(near.unwrap_or(0.0)),
+            Kind::Pair => path.meeting(at_once.unwrap_or(0.0)),
             Kind::Wall => {
                 let still = terms.still(model, key);
                 let (left, more) = (self.depth(model, key.1).min(still), self.sunk[key.1].min(still));
-                path.wall_meeting(near, Allowance { left, more })
+                path.wall_meeting(at_once, Allowance { left, more })
             }
         };
         let Some(meeting) = found else { return };
@@ -121,17 +128,20 @@ impl Moreau {
         let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
         let pulled = terms.pulled(model, key) + model.law.rest_speed;
         let approach = if round == 0 || closing <= pulled { before } else { before.max(closing) };
-        let held = carried > 0.0 || self.was_held_level_with(&path, &meeting);
+        // What has parted since, by more than others may push it together again, is held no longer.
+        let held = (carried > 0.0 && meeting.way <= near) || self.was_held_level_with(&path, &meeting, near);
         let struck = meets && !held && approach > model.law.rest_speed;
         self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
     }
 
-    /// Whether what held a sphere in the last frame is a wall in the plane in which it meets this one: a sphere that goes
-    /// on from tile to tile strikes the next one no more than the first one over again.
-    fn was_held_level_with(&self, path: &Path, meeting: &Meeting) -> bool {
+    /// Whether what held a sphere in the last frame, and is no farther than `near` (m) from it still, is a wall in the plane
+    /// in which it meets this one: a sphere that goes on from tile to tile strikes the next one no more than the first one
+    /// over again.
+    fn was_held_level_with(&self, path: &Path, meeting: &Meeting, near: f64) -> bool {
         let (kind, a, _) = path.key;
-        let mut walls = self.walls_that_held(a);
-        kind == Kind::Wall && walls.any(|wall| path.meets_in_plane_of(&path.model.faces[wall], meeting))
+        let holds = |face: &Face| wall::touch(face, path.from, path.size()).gap <= near;
+        let mut walls = self.walls_that_held(a).map(|wall| &path.model.faces[wall]);
+        kind == Kind::Wall && walls.any(|face| path.meets_in_plane_of(face, meeting) && holds(face))
     }
 
     /// The walls that held a sphere in the last frame.
@@ -172,12 +182,24 @@ impl Moreau {
             index += 1;
             index <= known || keep.next() == Some(true)
         });
-        for row in &self.rows[known..] {
+        for row in &mut self.rows[known..] {
             if row.class == Class::Collide && row.key.0 == Kind::Wall {
                 let (free, n) = (&mut self.free[row.key.1], row.normal);
-                *free += (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+                row.rubbed = (*free - n * n.dot(*free)) * (model.law.tangential - 1.0);
+                *free += row.rubbed;
             }
         }
+    }
+
+    /// Gives back what walls have taken that would have been struck, had others not kept the sphere from it: no impulse, no
+    /// loss along the wall. Whether there was any; the rows are to be solved again then.
+    fn give_back_rubbed(&mut self) -> bool {
+        let mut any = false;
+        for row in self.rows.iter_mut().filter(|row| row.impulse == 0.0 && row.rubbed != DVec3::ZERO) {
+            self.free[row.key.1] -= std::mem::take(&mut row.rubbed);
+            any = true;
+        }
+        any
     }
 
     /// Edges that a sphere touches at one point carry it, or are struck, together: over the middle of a crack it feels no
@@ -215,7 +237,6 @@ impl Moreau {
     /// The rows are solved: spheres that move farther than was looked for are searched for again.
     fn look_again(&mut self, model: &Model, round: usize) {
         let h = self.settings.dt;
-        self.solver.read_impulses(&mut self.rows);
         let mut farther = false;
         for (i, solution) in self.solution.iter_mut().enumerate() {
             *solution = self.solver.velocity(i);
@@ -318,7 +339,7 @@ impl Moreau {
             a,
             b,
             point: touch.point,
-            normal: touch.normal,
+            normal: row.normal, // along which the impulse acts: that of the place where they meet within the frame
             velocity: before,
             approach_speed: row.approach,
             separation_speed: impact_law::normal_velocity(self.end.v[a], after, row.normal),

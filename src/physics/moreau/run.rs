@@ -194,6 +194,17 @@ impl Engine for Moreau {
 }
 
 impl Moreau {
+    /// What a state of [`Engine::at`] lacks of the energy of the frame's end, J: its velocities are those of the end, while its
+    /// spheres have not yet fallen so far.
+    pub(crate) fn hidden_energy_at(&self, model: &Model, state: &State) -> f64 {
+        if state.t <= self.start.t || state.t >= self.end.t {
+            return 0.0;
+        }
+        let left = self.end.t - state.t;
+        let work = |(i, v): (usize, &DVec3)| model.masses[i] * model.acceleration(i).dot(*v) * left;
+        -state.v.iter().enumerate().map(work).sum::<f64>()
+    }
+
     /// What touches at the start and does not approach rests, if something presses it; what approaches is left to the
     /// first frame.
     pub(super) fn load(&mut self, model: &Model, log: &mut Log) {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::candidates::Candidates;
 use super::simd::{MOST, PairBatch, Query, Simd};
 use crate::physics::contact::Kind;
-use crate::physics::contact_time::straight_pair;
+use crate::physics::contact_time::{is_far, straight_pair};
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::islands::resting::Rests;
 use crate::physics::events::record::Plan;
@@ -110,6 +110,29 @@ impl<D: Detector> Search<'_, D> {
             } else if first.time < f64::INFINITY {
                 self.offer(first.with as usize, first.time, true, plan);
             }
+        }
+        if plan.kind == Kind::Pair && plan.contact < f64::INFINITY {
+            self.refine(plan);
+        }
+    }
+
+    /// Finds the time of the planned pair anew where it comes from far: what finds four at a time cancels there.
+    #[inline(always)]
+    fn refine(&self, plan: &mut Plan) {
+        let other = plan.other as usize;
+        let (x, records) = (self.path.x - self.trajectories.path_from(other).x, &self.trajectories.records);
+        let reach = records[self.slot].trajectory.r + records[other].trajectory.r;
+        if is_far(x.length_squared() - reach * reach, reach) {
+            self.refine_far(x, reach, plan);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn refine_far(&self, x: DVec3, reach: f64, plan: &mut Plan) {
+        let v = self.path.v - self.trajectories.path_from(plan.other as usize).v;
+        if let Some(after) = straight_pair(x, v, reach) {
+            plan.contact = self.trajectories.now + after;
         }
     }
 
