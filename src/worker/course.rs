@@ -4,12 +4,12 @@
 //! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
 //! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
 
-mod acting;
 mod nearby;
 mod scout;
 mod taken;
 
 use super::{
+    acting::Acting,
     job::Job,
     keyframes::{CLOSE, Keyframes, RECENT},
     replay_cost::Meter,
@@ -20,7 +20,6 @@ use crate::{
     scene::{Method, Settings},
     snapshot::Kept,
 };
-use acting::Acting;
 use scout::Scout;
 
 /// Changes that are remembered: more than a hand makes in hours. When there are more, the history begins anew.
@@ -256,8 +255,7 @@ impl Course {
             if !self.whole {
                 return progress;
             }
-            let acts = self.is_acted_on();
-            done += self.keyframes.look(&self.simulation, (self.changed, acts));
+            done += self.keyframes.look(&self.simulation, (self.changed, &self.acting));
             let there = until == Until::Frame || matches!(until, Until::Time(t) if t <= self.time());
             if there || progress != Progress::Reached || done > CALL || frame_by_frame {
                 return progress;
@@ -394,11 +392,11 @@ impl Course {
         if here.is_some_and(|here| keyframe.is_none_or(|kept| kept.frame <= here)) {
             return;
         }
-        let (run, changes) = match keyframe {
-            Some(kept) => (kept.run(), kept.changes),
-            None => (begin(&self.job), 0),
+        let (run, changes, acting) = match keyframe {
+            Some(kept) => (kept.run(), kept.changes, kept.acting.clone()),
+            None => (begin(&self.job), 0, Acting::default()),
         };
-        self.put_aside(run, changes);
+        self.put_aside(run, changes, acting);
         self.toward = Some((frame, Meter::of(&self.simulation)));
     }
 
@@ -426,10 +424,10 @@ impl Course {
     }
 
     /// Shows an earlier run, of which so many changes have been made.
-    fn put_aside(&mut self, run: Simulation, changes: usize) {
+    fn put_aside(&mut self, run: Simulation, changes: usize, acting: Acting) {
         let before = std::mem::replace(&mut self.simulation, run);
         let (stall, whole) = (self.stall.take(), std::mem::replace(&mut self.whole, true));
-        let acting = std::mem::take(&mut self.acting);
+        let acting = std::mem::replace(&mut self.acting, acting);
         if self.newest.is_none() {
             self.newest = Some(Box::new(Newest { simulation: before, stall, whole, acting }));
         }

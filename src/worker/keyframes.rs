@@ -2,7 +2,7 @@
 //!
 //! Where they lie follows from counted work, so that they are the same on every machine and however busy it is.
 
-use super::replay_cost::Meter;
+use super::{acting::Acting, replay_cost::Meter};
 use crate::{
     physics::{Keyframe, Simulation},
     snapshot::{EventLog, shows_trials},
@@ -48,21 +48,26 @@ pub(super) struct Kept {
     /// Work from the keyframe before, ns.
     gap: u64,
     keyframe: Keyframe,
+    /// What acts over the frame that ended then.
+    pub(super) acting: Acting,
+    /// Memory that it takes, bytes.
+    bytes: usize,
 }
 
 impl Kept {
-    /// A run between two frames, with the number of recorded changes it includes, and whether the frame before acts over the
-    /// one that has ended; none if it is too large.
-    fn of(run: &Simulation, (changes, acts): (usize, bool)) -> Option<Kept> {
+    /// A run between two frames, with the number of recorded changes it includes, and what acts over the frame that has
+    /// ended; none if it is too large.
+    fn of(run: &Simulation, (changes, acting): (usize, &Acting)) -> Option<Kept> {
         if run.model().len() * size_of::<[f64; 6]>() > LARGEST {
             return None; // it need not be tried
         }
-        let keyframe = run.keyframe();
+        let (keyframe, acting) = (run.keyframe(), acting.clone());
         let tallies = run.tallies();
         let (frame, impacts) = (tallies.frames, tallies.impacts);
-        let has_inside = frame > 0 && (shows_trials(run) || acts);
-        let kept = Kept { frame, time: run.time(), impacts, changes, has_inside, gap: 0, keyframe };
-        (kept.keyframe.bytes() <= LARGEST).then_some(kept)
+        let has_inside = frame > 0 && shows_trials(run);
+        let bytes = keyframe.bytes() + acting.bytes();
+        let kept = Kept { frame, time: run.time(), impacts, changes, has_inside, gap: 0, keyframe, acting, bytes };
+        (bytes <= LARGEST).then_some(kept)
     }
 
     /// The run as it was.
@@ -98,7 +103,7 @@ impl Keyframes {
     /// Those of a run that is between two frames: this one, if it is not too large.
     pub(super) fn of(run: &Simulation) -> Keyframes {
         let mut keyframes = Keyframes::none(run);
-        keyframes.keep(run, (0, false));
+        keyframes.keep(run, (0, &Acting::default()));
         keyframes
     }
 
@@ -141,8 +146,8 @@ impl Keyframes {
     }
 
     /// The run is between two frames, its newest: keeps it if it is time to, with the number of recorded changes it
-    /// includes, and whether the frame before acts over the one that has ended. Asked at every frame; what that has cost, ns of counted work.
-    pub(super) fn look(&mut self, run: &Simulation, told: (usize, bool)) -> u64 {
+    /// includes, and what acts over the frame that has ended. Asked at every frame; what that has cost, ns of counted work.
+    pub(super) fn look(&mut self, run: &Simulation, told: (usize, &Acting)) -> u64 {
         let frame = run.tallies().frames;
         if self.too_large || frame <= self.looked {
             return 0;
@@ -157,12 +162,12 @@ impl Keyframes {
     }
 
     /// Keeps a run between two frames, behind all others.
-    fn keep(&mut self, run: &Simulation, told: (usize, bool)) {
+    fn keep(&mut self, run: &Simulation, told: (usize, &Acting)) {
         let Some(mut kept) = Kept::of(run, told) else {
             self.too_large = true;
             return;
         };
-        let bytes = kept.keyframe.bytes();
+        let bytes = kept.bytes;
         self.spacing = (bytes as u64).saturating_mul(SPACING_OF_A_BYTE).clamp(SPACING, CLOSE);
         kept.gap = std::mem::take(&mut self.since);
         self.bytes += bytes;
@@ -174,7 +179,7 @@ impl Keyframes {
 
     /// Keeps a run between two frames, its newest, as if it had worked so much more (ns).
     #[cfg(test)]
-    pub(super) fn keep_now(&mut self, run: &Simulation, told: (usize, bool), work: u64) {
+    pub(super) fn keep_now(&mut self, run: &Simulation, told: (usize, &Acting), work: u64) {
         if self.list.last().is_none_or(|last| last.frame < run.tallies().frames) {
             self.since += self.meter.read(run) + work;
             self.keep(run, told);
@@ -195,18 +200,18 @@ impl Keyframes {
 
     /// Keeps a run at its place among the others, so much work (ns) after the one before, unless that frame is kept, or there
     /// is no room but that of frames that would be lost.
-    pub(super) fn insert(&mut self, run: &Simulation, told: (usize, bool), work: u64) {
+    pub(super) fn insert(&mut self, run: &Simulation, told: (usize, &Acting), work: u64) {
         let frame = run.tallies().frames;
         let is_kept = self.list.binary_search_by_key(&frame, |other| other.frame).is_ok();
         let Some(mut kept) = Kept::of(run, told).filter(|_| !is_kept) else { return };
-        if self.bytes + kept.keyframe.bytes() > self.room && !self.thin_out() {
+        if self.bytes + kept.bytes > self.room && !self.thin_out() {
             return;
         }
         kept.gap = work;
         let place = self.list.partition_point(|other| other.frame < frame);
         let after = self.list.get_mut(place).map_or(&mut self.since, |after| &mut after.gap);
         *after = after.saturating_sub(work);
-        self.bytes += kept.keyframe.bytes();
+        self.bytes += kept.bytes;
         self.list.insert(place, kept);
     }
 
@@ -226,7 +231,7 @@ impl Keyframes {
         self.meter = Meter::of(run);
         let count = self.list.partition_point(|kept| kept.frame <= frame);
         let gap = self.list.get(count).map_or(self.since, |after| after.gap);
-        self.bytes -= self.list[count..].iter().map(|kept| kept.keyframe.bytes()).sum::<usize>();
+        self.bytes -= self.list[count..].iter().map(|kept| kept.bytes).sum::<usize>();
         self.list.truncate(count);
         // the work up to here is not known, but no more than up to the first that was dropped
         (self.since, self.spacing, self.looked) = (gap, 0, frame);
@@ -240,7 +245,7 @@ impl Keyframes {
         }
         let (mut dropped, mut gone) = (1, 0_u64);
         while self.bytes > self.thin_to() && dropped + 1 < self.list.len() {
-            self.bytes -= self.list[dropped].keyframe.bytes();
+            self.bytes -= self.list[dropped].bytes;
             gone = gone.saturating_add(self.list[dropped].gap);
             dropped += 1;
         }
@@ -284,7 +289,7 @@ impl Keyframes {
             let goes = bytes > left && i > 0 && i < recent && between <= thinned;
             i += 1;
             if goes {
-                bytes -= kept.keyframe.bytes();
+                bytes -= kept.bytes;
                 gone = gone.saturating_add(kept.gap);
             } else {
                 kept.gap = kept.gap.saturating_add(std::mem::take(&mut gone));
@@ -309,7 +314,7 @@ mod tests {
         for _ in 0..frames {
             assert_eq!(run.advance(Until::Frame, 1 << 30), Progress::Reached);
             keyframes.since += gap;
-            keyframes.keep(&run, (0, false));
+            keyframes.keep(&run, (0, &Acting::default()));
             assert!(keyframes.bytes <= BUDGET);
         }
         (keyframes, run)
@@ -345,10 +350,10 @@ mod tests {
         let mut back = keyframes.before(20).expect("each is kept").run();
         keyframes.cut(&back);
         assert_eq!(keyframes.list.last().map(|kept| kept.frame), Some(20));
-        assert_eq!(keyframes.bytes, keyframes.list.iter().map(|kept| kept.keyframe.bytes()).sum::<usize>());
+        assert_eq!(keyframes.bytes, keyframes.list.iter().map(|kept| kept.bytes).sum::<usize>());
         assert_eq!(keyframes.before(7).map(|kept| kept.frame), Some(7));
         back.advance(Until::Frame, 1 << 30);
-        keyframes.look(&back, (0, false));
+        keyframes.look(&back, (0, &Acting::default()));
         assert_eq!(keyframes.list.last().map(|kept| kept.frame), Some(21));
         assert!(run.tallies().frames > 21);
     }
@@ -359,9 +364,9 @@ mod tests {
         let (mut kept, mut since) = (1, 0);
         for _ in 0..3000 {
             assert_eq!(run.advance(Until::Frame, 1 << 30), Progress::Reached);
-            since += keyframes.look(&run, (0, false));
+            since += keyframes.look(&run, (0, &Acting::default()));
             let is_due = since >= keyframes.spacing;
-            assert_eq!(keyframes.look(&run, (0, false)), 0, "a frame is looked at once");
+            assert_eq!(keyframes.look(&run, (0, &Acting::default())), 0, "a frame is looked at once");
             if keyframes.list.len() > kept {
                 assert!(since >= SPACING, "too early: {since} ns");
                 (kept, since) = (kept + 1, 0);

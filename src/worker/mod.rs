@@ -12,11 +12,13 @@
 //! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
 //! | `course`, `keyframes`, `replay_cost` | the run and its past; what of it is kept; what a frame costs to be done again |
 //! | `tape`, `recorder` | a recording under way, and one that is followed |
+//! | `acting` | what acts over a frame from the one before |
 //! | `around` | what was shortly before, and what comes next of a sphere |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
 
+mod acting;
 mod around;
 mod course;
 mod errands;

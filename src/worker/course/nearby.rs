@@ -1,12 +1,11 @@
 //! Keyframes where one goes back and forth: put there on the way, or while nothing else is to do.
 
 use super::{CLOSE, Course, RECENT, scout::Scout};
-use crate::scene::Method;
 
 impl Course {
     /// Keeps what comes shortly before the frame that the run is on its way to: the next step back is quick then.
     pub(super) fn keep_on_the_way(&mut self) {
-        let (frame, acts) = (self.frame(), self.is_acted_on());
+        let frame = self.frame();
         let Some((target, meter)) = &mut self.toward else { return };
         if !self.whole || frame >= *target || frame + RECENT < *target {
             return;
@@ -15,13 +14,8 @@ impl Course {
         let work = since.read(&self.simulation);
         if work > CLOSE {
             *meter = since;
-            self.keyframes.insert(&self.simulation, (self.changed, acts), work);
+            self.keyframes.insert(&self.simulation, (self.changed, &self.acting), work);
         }
-    }
-
-    /// Whether impulses of the frame before have acted over the one that is shown.
-    pub(super) fn is_acted_on(&self) -> bool {
-        !self.acting.over(&self.simulation).is_empty()
     }
 
     /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
@@ -36,10 +30,8 @@ impl Course {
             return true;
         }
         self.scouted = Some(shown);
-        if let Some((run, changes, work)) = self.scout.take().and_then(|scout| scout.found()) {
-            // what acts over that frame is not known
-            let acts = run.settings().method == Method::Paper;
-            self.keyframes.insert(&run, (changes, acts), work);
+        if let Some((run, told, work)) = self.scout.take().and_then(|scout| scout.found()) {
+            self.keyframes.insert(&run, (told.0, &told.1), work);
         }
         false
     }

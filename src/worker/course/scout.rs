@@ -2,7 +2,7 @@
 
 use crate::{
     physics::{Progress, Simulation, Until},
-    worker::{keyframes::Kept, replay_cost::Meter},
+    worker::{acting::Acting, keyframes::Kept, replay_cost::Meter},
 };
 
 /// How long a scout goes on before commands are looked at again, s.
@@ -18,13 +18,17 @@ pub(super) struct Scout {
     pub(super) shown: u64,
     /// Counts its work.
     meter: Meter,
+    /// Whether no frame is in progress, and what acts over it from the one before.
+    whole: bool,
+    acting: Acting,
 }
 
 impl Scout {
     /// From a keyframe toward a frame, while another is shown.
     pub(super) fn toward(target: u64, shown: u64, from: &Kept) -> Scout {
         let run = from.run();
-        Scout { meter: Meter::of(&run), run, changes: from.changes, target, shown }
+        let (meter, changes, acting) = (Meter::of(&run), from.changes, from.acting.clone());
+        Scout { run, changes, target, shown, meter, whole: true, acting }
     }
 
     /// Goes on for a while, in calls of so much work; whether it is at its end. `clock` tells the time, s.
@@ -32,7 +36,11 @@ impl Scout {
         let start = clock();
         let mut progress = Progress::Reached;
         while progress == Progress::Reached && !self.is_there() && clock() - start < SCOUTING {
+            if self.whole {
+                self.acting.note(&self.run);
+            }
             progress = self.run.advance(Until::Frame, work);
+            self.whole = progress == Progress::Reached;
         }
         self.run.take_events();
         self.is_there() || matches!(progress, Progress::Stalled(_))
@@ -42,10 +50,10 @@ impl Scout {
         self.run.tallies().frames >= self.target
     }
 
-    /// The run at the frame to be kept, the recorded changes it includes, and the work up to there, ns; none if it has
-    /// not come so far.
-    pub(super) fn found(mut self) -> Option<(Simulation, usize, u64)> {
+    /// The run at the frame to be kept, the recorded changes it includes and what acts over that frame, and the work up to
+    /// there, ns; none if it has not come so far.
+    pub(super) fn found(mut self) -> Option<(Simulation, (usize, Acting), u64)> {
         let work = self.meter.read(&self.run);
-        self.is_there().then_some((self.run, self.changes, work))
+        self.is_there().then_some((self.run, (self.changes, self.acting), work))
     }
 }

@@ -80,7 +80,7 @@ impl Walk {
     /// Keyframes some thirty frames apart, beside those that the work asks for.
     fn keep_now_and_then(&mut self) {
         if self.below(30) == 0 && self.course.whole && !self.course.is_past() {
-            let told = (self.course.changed, self.course.is_acted_on());
+            let told = (self.course.changed, &self.course.acting);
             self.course.keyframes.keep_now(&self.course.simulation, told, 0);
         }
     }
@@ -93,7 +93,7 @@ impl Walk {
             let work = 1 + self.below(200);
             let progress = self.course.advance(Until::Frame, work);
             if self.below(50) == 0 && self.course.whole && self.course.is_past() {
-                let told = (self.course.changed, self.course.is_acted_on());
+                let told = (self.course.changed, &self.course.acting);
                 self.course.keyframes.insert(&self.course.simulation, told, 0);
             }
             assert!(!matches!(progress, Progress::Stalled(_)) && self.course.frame() <= frame, "{name}: {progress:?}");
@@ -263,7 +263,7 @@ fn while_nothing_else_is_to_do_a_keyframe_is_put_before_the_last_frames() {
         walk.look();
     }
     // all of them, as far as is known, are too much to be done again for a frame
-    walk.course.keyframes.keep_now(&walk.course.simulation, (walk.course.changed, false), CLOSE + 1);
+    walk.course.keyframes.keep_now(&walk.course.simulation, (walk.course.changed, &walk.course.acting), CLOSE + 1);
     let settings = Settings { tolerance: 1e-5, ..walk.course.settings() };
     walk.course.set(settings);
     walk.look();

@@ -7,7 +7,7 @@ use crate::{
 
 /// The impacts of a frame whose impulses act over the next one.
 #[derive(Debug, Clone, Default)]
-pub(in crate::worker) struct Acting {
+pub(super) struct Acting {
     /// The frame at whose end they were.
     frame: u64,
     impacts: Vec<Contact>,
@@ -24,8 +24,13 @@ impl Acting {
         }
     }
 
+    /// Memory that it takes beside its own size, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.impacts)
+    }
+
     /// Those whose impulses have acted over the frame at whose end the run is.
-    pub(in crate::worker) fn over(&self, run: &Simulation) -> &[Contact] {
+    pub(super) fn over(&self, run: &Simulation) -> &[Contact] {
         if self.frame + 1 == run.tallies().frames { &self.impacts } else { &[] }
     }
 }
