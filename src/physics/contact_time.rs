@@ -129,13 +129,14 @@ fn pair_grazes(path: &Path, closing: f64) -> bool {
 }
 
 fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
+    // first of all: of most pairs nothing else need be known
+    if path.stays_within(path.x.length() - reach, before) {
+        return None;
+    }
     let c = distance_polynomial(path, reach);
     let closing = pair_normal_velocity(path.x, path.v);
     if c[0] <= 0.0 && closing < 0.0 && !pair_grazes(path, closing) {
         return Some(0.0);
-    }
-    if path.stays_within(path.x.length() - reach, before) {
-        return None;
     }
     let (falls, count) = quartic_falls(&c, before);
     falls[..count].iter().find_map(|&t| approached_pair(path, reach, t)).filter(|&t| t < before)

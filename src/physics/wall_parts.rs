@@ -17,37 +17,54 @@ struct Border {
     inward: DVec3,
 }
 
-/// The borders of a part: four of a face, three of an edge, two of a corner.
-fn borders(face: &Face, part: Part) -> impl Iterator<Item = Border> {
-    let corners = face.shape.corners();
-    let along =
-        move |k: usize| (corners[(k + 1) % 4] - corners[k % 4]) / (corners[(k + 1) % 4] - corners[k % 4]).length();
-    let outward = |k: usize| match k {
-        0 => -face.dual2 / face.dual2.length(),
-        1 => face.dual1 / face.dual1.length(),
-        2 => face.dual2 / face.dual2.length(),
-        _ => -face.dual1 / face.dual1.length(),
-    };
-    let border = |at: DVec3, inward: DVec3| Some(Border { at, inward });
-    let found = match part {
-        Part::Face => [0, 1, 2, 3].map(|k| border(corners[k], -outward(k))),
-        Part::Edge(k) => {
-            let k = k as usize;
-            let (from, to) = (corners[k], corners[(k + 1) % 4]);
-            [border(from, along(k)), border(to, -along(k)), border(from, outward(k)), None]
+/// The corners of a wall, and the unit vectors along its edges and outwards from them.
+struct Outline {
+    corners: [DVec3; 4],
+    along: [DVec3; 4],
+    outward: [DVec3; 4],
+}
+
+impl Outline {
+    fn of(face: &Face) -> Outline {
+        let corners = face.shape.corners();
+        let along = [0, 1, 2, 3].map(|k: usize| {
+            let side = corners[(k + 1) % 4] - corners[k];
+            side / side.length()
+        });
+        let (one, two) = (face.dual1 / face.dual1.length(), face.dual2 / face.dual2.length());
+        Outline { corners, along, outward: [-two, one, two, -one] }
+    }
+
+    /// The borders of a part: four of a face, three of an edge, two of a corner.
+    fn borders(&self, part: Part) -> ([Border; 4], usize) {
+        let Outline { corners, along, outward } = self;
+        let border = |at: usize, inward: DVec3| Border { at: corners[at % 4], inward };
+        match part {
+            Part::Face => ([0, 1, 2, 3].map(|k| border(k, -outward[k])), 4),
+            Part::Edge(k) => {
+                let k = k as usize;
+                let from = border(k, along[k]);
+                ([from, border(k + 1, -along[k]), border(k, outward[k]), from], 3)
+            }
+            Part::Corner(k) => {
+                let k = k as usize;
+                let from = border(k, -along[k]);
+                ([from, border(k, along[(k + 3) % 4]), from, from], 2)
+            }
         }
-        Part::Corner(k) => {
-            let k = k as usize;
-            [border(corners[k], -along(k)), border(corners[k], along(k + 3)), None, None]
-        }
-    };
-    found.into_iter().flatten()
+    }
+
+    /// How far the point closest to `x` is inside a part, m.
+    fn room(&self, part: Part, x: DVec3) -> f64 {
+        let (borders, count) = self.borders(part);
+        borders[..count].iter().map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// How far the point closest to `x` is inside a part of a wall, m: the least distance to where another part takes over;
 /// negative beyond.
 pub(crate) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
-    borders(face, part).map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
+    Outline::of(face).room(part, x)
 }
 
 /// How far beyond a border at which it begins a contact belongs to the next part, in radii or coordinates, whichever are
@@ -60,12 +77,13 @@ pub(crate) const BORDER: f64 = 1e-12;
 /// at which it is [`BORDER`] beyond. Only times below `before` (s) matter.
 pub(crate) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64) -> Option<f64> {
     let least = BORDER * path.x.abs().max_element().max(r);
-    let end = |border: Border| {
+    let end = |border: &Border| {
         let (n, room) = (border.inward, border.inward.dot(path.x - border.at));
         let room = if room > least { room } else { room + least };
         quadratic_fall([room, n.dot(path.v), 0.5 * n.dot(path.a)])
     };
-    borders(face, part).filter_map(end).filter(|&t| t < before).reduce(f64::min)
+    let (borders, count) = Outline::of(face).borders(part);
+    borders[..count].iter().filter_map(end).filter(|&t| t < before).reduce(f64::min)
 }
 
 /// The part of a wall that is closest to a sphere of radius `r` (m) at `x` just from now on, given how it moves: on a
@@ -77,9 +95,10 @@ pub(crate) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> P
     let direction = if v == DVec3::ZERO { a } else { v };
     let length = direction.length();
     let look = if length > 0.0 { x + direction * (ahead / length) } else { x };
-    let mut best = (Part::Face, room(face, Part::Face, look));
+    let outline = Outline::of(face);
+    let mut best = (Part::Face, outline.room(Part::Face, look));
     for part in (0..4).map(Part::Edge).chain((0..4).map(Part::Corner)) {
-        let room = room(face, part, look);
+        let room = outline.room(part, look);
         if room > best.1 {
             best = (part, room);
         }

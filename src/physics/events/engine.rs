@@ -21,7 +21,7 @@ use crate::physics::model::{Model, Settings};
 use crate::physics::state::{Stall, State};
 
 /// Spheres beyond this many are kept in cells.
-const FEW: usize = 64;
+const FEW: usize = 16;
 
 /// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
 /// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.

@@ -7,6 +7,7 @@
 //! (Cuthill, McKee 1969), so that each couples only with those shortly before it.
 
 use glam::DVec3;
+use smallvec::{SmallVec, smallvec};
 
 use super::problem::Row;
 
@@ -41,7 +42,7 @@ pub(super) fn bind(
     let factor = Skyline::of(inverse_mass, rows, leaves_out)?;
     let mut u = free.to_vec();
     let mut multipliers = vec![0.0; rows.len()];
-    let mut change = vec![0.0; factor.held.len()];
+    let mut change: SmallVec<[f64; FEW]> = smallvec![0.0; factor.held.len()];
     for _ in 0..if factor.least < DOUBTFUL { 3 } else { 2 } {
         for (change, held) in change.iter_mut().zip(&factor.held) {
             let row = &rows[held.row];
@@ -74,10 +75,10 @@ struct Held {
     start: usize,
 }
 
-/// The Cholesky factor, row by row.
+/// The Cholesky factor, row by row. Of few rows it asks for no memory: it is made millions of times a second.
 struct Skyline {
-    held: Vec<Held>,
-    entries: Vec<f64>,
+    held: SmallVec<[Held; FEW]>,
+    entries: SmallVec<[f64; FEW * (FEW + 1) / 2]>,
     /// Least square of what was new of a column.
     least: f64,
 }
@@ -85,11 +86,11 @@ struct Skyline {
 impl Skyline {
     fn of(inverse_mass: &[f64], rows: &[Row], leaves_out: bool) -> Option<Skyline> {
         let mut factor = Skyline {
-            held: Vec::with_capacity(rows.len()),
-            entries: Vec::with_capacity(rows.len() * (rows.len().min(FEW) + 1) / 2),
+            held: SmallVec::with_capacity(rows.len()),
+            entries: SmallVec::with_capacity(rows.len() * (rows.len().min(FEW) + 1) / 2),
             least: 1.0,
         };
-        let mut firsts = vec![usize::MAX; inverse_mass.len()];
+        let mut firsts: SmallVec<[usize; FEW]> = smallvec![usize::MAX; inverse_mass.len()];
         if rows.len() <= FEW {
             for index in 0..rows.len() {
                 factor.append((inverse_mass, rows), index, leaves_out, &mut firsts)?;
@@ -167,18 +168,24 @@ impl Skyline {
 }
 
 /// An element of A.
+#[inline]
 fn coupling(inverse_mass: &[f64], one: &Row, other: &Row) -> f64 {
-    let shared = |body: usize| {
-        let of = |row: &Row| f64::from(i8::from(row.a == body) - i8::from(row.b == Some(body)));
-        of(one) * of(other) * inverse_mass[body]
+    let shared = |body: usize| match (other.a == body, other.b == Some(body)) {
+        (true, _) => inverse_mass[body],
+        (_, true) => -inverse_mass[body],
+        _ => 0.0,
     };
-    let weight = shared(one.a) + one.b.map_or(0.0, shared);
+    let weight = shared(one.a) - one.b.map_or(0.0, shared);
     if weight == 0.0 { 0.0 } else { weight * one.normal.dot(other.normal) }
 }
 
-/// Σ xᵢ yᵢ, four at a time: the processor need not wait for each sum.
+/// Σ xᵢ yᵢ, four at a time where there are so many: the processor need not wait for each sum.
+#[inline]
 fn dot(x: &[f64], y: &[f64]) -> f64 {
     let y = &y[..x.len()];
+    if x.len() < 4 {
+        return x.iter().zip(y).fold(0.0, |sum, (x, y)| sum + x * y);
+    }
     let mut sums = [0.0; 4];
     let (quads, others) = (x.chunks_exact(4), y.chunks_exact(4));
     let rest: f64 = quads.remainder().iter().zip(others.remainder()).map(|(x, y)| x * y).sum();

@@ -13,6 +13,9 @@ use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::path::Path;
 
+/// Square of a distance over that of the sum of the radii up to which spheres may rest on each other: more than any rounding.
+const TOUCHES: f64 = 1.01;
+
 /// The sphere that looks for its next contact, and what it looks with.
 pub(super) struct Search<'a, D> {
     pub(super) model: &'a Model,
@@ -160,17 +163,19 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
         let (records, now) = (&self.trajectories.records, self.trajectories.now);
-        if !self.rests.is_empty() && self.rest_on_each_other(other) {
-            return 0;
-        }
         let line = &records[other].trajectory;
         let reach = records[self.slot].trajectory.r + line.r;
+        let seen = self.trajectories.path_from(other);
+        let near = self.path.x.distance_squared(seen.x) <= TOUCHES * (reach * reach);
+        if near && !self.rests.is_empty() && self.rest_on_each_other(other) {
+            return 0;
+        }
         let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
             let t = straight_pair(self.path.x - (line.x + line.v * (now - line.t)), self.path.v - line.v, reach);
             t.map(|after| Due { after, is_contact: true })
         } else {
             let before = D::pair_horizon(plan.contact, records[other].plan.contact);
-            self.detector.pair(&self.path, &self.trajectories.path_from(other), reach, self.span_before(before))
+            self.detector.pair(&self.path, &seen, reach, self.span_before(before))
         };
         let Some(due) = found else { return 1 };
         self.offer(other, now + due.after, due.is_contact, plan)
