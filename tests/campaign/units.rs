@@ -1,7 +1,7 @@
 //! The same scene in other units of length and time: the same events, the trajectory scaled, to rounding. A twin whose
 //! places are off by some ulp says how fast rounding grows; what it does not survive itself is not asked of the scaled run.
 
-use carom::physics::{Class, Contact, Kind, Progress, Scene, Simulation, Until};
+use carom::physics::{Contact, Kind, Progress, Scene, Simulation, Until};
 use carom::scene::{Sphere, Wall};
 use glam::DVec3;
 
@@ -63,21 +63,22 @@ fn in_units(scene: &Scene, length: f64, time: f64) -> Scene {
     scaled.expect("a scene within the rules")
 }
 
-/// Rests that stop less than this (m/s, in the scene's own units), and their ends, are told or not, or later, as rounding
-/// has it.
+/// What stops less than this (m/s, in the scene's own units), and the end of a rest, is told or not, or later, as rounding has
+/// it.
 const STOPPED: f64 = 1e-6;
 
 /// Whether a row tells of more than a stop at the level of rounding; `unit` of speed, m/s.
 fn matters(scene: &Scene, row: &Contact, unit: f64) -> bool {
     let change = |i: usize| row.impulse / scene.spheres[i].mass;
     let other = if row.kind == Kind::Pair { change(row.b) } else { 0.0 };
-    row.class == Class::Collide || change(row.a).max(other).max(row.approach_speed.abs()) > STOPPED * unit
+    change(row.a).max(other).max(row.approach_speed.abs()) > STOPPED * unit
 }
 
 /// The events of a run until `t` (s) that matter in this unit of speed (m/s), and why it did not get there if it did not.
 fn events(scene: &Scene, dt: f64, t: f64, unit: f64) -> (Vec<Contact>, Option<String>) {
     let (mut rows, end) = all_events(scene, dt, t);
-    rows.retain(|row| matters(scene, row, unit));
+    // the last frame may reach beyond the end
+    rows.retain(|row| row.time <= t && matters(scene, row, unit));
     (rows, end)
 }
 
