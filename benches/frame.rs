@@ -1,12 +1,13 @@
 //! What a frame costs: milliseconds to draw, bytes to send. `cargo bench --bench frame`
 //!
-//! Two views of bouncing spheres. Times are medians on this machine; the ratios, taken in the same run, are what can be
+//! Two views of bouncing spheres. Times are medians of processor time on this machine; the ratios, taken in the same run, are what can be
 //! compared between machines. Bytes are the same everywhere.
 
-use std::{fmt::Write as _, hint::black_box, io::Write as _, time::Instant};
+use std::{fmt::Write as _, hint::black_box, io::Write as _};
 
 use carom::{
     frame::{Encoder, ansi, svg, text},
+    measure,
     view::{self, Colors, Marker, Mode},
 };
 use glam::{DVec3, dvec3};
@@ -117,13 +118,13 @@ fn naive_circles_ms(count: usize) -> f64 {
     })
 }
 
-/// Median time of a run, ms.
+/// Median processor time of a run, ms.
 fn median_ms(mut run: impl FnMut()) -> f64 {
     let mut times: Vec<f64> = (0..41)
         .map(|_| {
-            let start = Instant::now();
+            let start = measure::thread_cpu();
             run();
-            start.elapsed().as_secs_f64() * 1e3
+            (measure::thread_cpu() - start) * 1e3
         })
         .collect();
     times.sort_by(f64::total_cmp);

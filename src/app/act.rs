@@ -316,12 +316,11 @@ impl State {
     /// To the first collision, with its card open: what a newcomer sees first.
     pub(super) fn first_look(&mut self) {
         self.go_to_impact(true);
+        self.sought = Some(Sought::FirstLook);
         self.view_settings.card = Some(CardView::default());
         let [run, next, help] =
             [Action::TogglePause, Action::NextImpact, Action::Help].map(|action| self.key_of(action));
-        self.say(format!(
-            "A collision taken apart: {run} lets it run, {next} goes to the next, {help} lists the keys."
-        ));
+        self.say(format!("A collision taken apart. {run} runs on, {next} goes to the next, {help} lists the keys."));
     }
 
     fn toggle_card(&mut self) {
@@ -400,12 +399,6 @@ impl State {
                 self.say(format!("Nothing was waited for yet; {} asks until what to run.", self.key_of(Action::Until)))
             }
         }
-    }
-
-    /// Goes to the time `t`, s.
-    pub(super) fn goto(&mut self, t: f64) {
-        self.head_for(Command::Goto(t), true);
-        self.say("On the way to the first frame that ends then or later; Esc stops.");
     }
 
     fn order(&mut self, text: &str) {

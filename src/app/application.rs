@@ -11,13 +11,13 @@ use super::{
     input::{Effect, Input, Setup},
     keys::pairs,
     said,
-    state::{Open, State},
+    state::{Open, Sought, State},
 };
 use crate::{
     frame,
     snapshot::{Ghost, Snapshot},
     view::{self, EventsView, Mode, Pace, Popup, Screen, ViewSettings},
-    worker::{Activity, Notify, Report},
+    worker::{Activity, Notify, Report, Said},
 };
 
 /// Size of a picture that is taken away where there is no screen.
@@ -163,6 +163,7 @@ impl App {
         if let Some(comparison) = &mut self.state.comparison {
             comparison.follow(&before, &self.state.report);
         }
+        let first_look = self.state.sought == Some(Sought::FirstLook);
         if self.state.report.obeyed == self.state.worker.sent() {
             self.state.running = self.state.report.activity == Activity::Running;
             self.state.has_target &= self.state.running;
@@ -171,6 +172,7 @@ impl App {
         }
         if let Some((count, said)) = &self.state.report.said
             && before.said.is_none_or(|(before, _)| before < *count)
+            && !(first_look && matches!(said, Said::Met { .. }))
         {
             let sentence = said::sentence(said, self.state.report.snapshot.stage.duration);
             self.state.tell(sentence);

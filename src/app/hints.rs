@@ -19,7 +19,10 @@ pub(super) enum Place {
     /// The help.
     Help,
     /// The list of all that has happened.
-    Events,
+    Events {
+        /// Whether something was typed to narrow it.
+        narrowed: bool,
+    },
 }
 
 /// (key, a word), the most needed first.
@@ -28,13 +31,9 @@ pub(super) fn hints(keymap: &Keymap, place: Place) -> Vec<(String, &'static str)
         Place::Run => return keymap.hints(),
         Place::List => return plain(&[("j k", "move"), ("/", "filter"), ("Enter", "open"), ("Esc", "close")]),
         Place::Help => return plain(&[("j k", "scroll"), ("Esc", "close")]),
-        Place::Events => {
-            return plain(&[
-                ("Up Down", "move"),
-                ("Enter", "go there"),
-                ("3  wall 0  rest", "narrow"),
-                ("Esc", "close"),
-            ]);
+        Place::Events { narrowed } => {
+            let out = if narrowed { "show all" } else { "close" };
+            return plain(&[("Up Down", "move"), ("Enter", "go there"), ("3  wall 0  rest", "narrow"), ("Esc", out)]);
         }
         Place::Past => &[
             (Action::TogglePause, "go on here"),

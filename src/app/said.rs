@@ -45,6 +45,12 @@ pub(super) fn sentence(said: &Said, duration: f64) -> String {
             let all = if *same { "all of it as recorded" } else { "not all of it as recorded" };
             format!("The recording ends here, with frame {}: {all}.", thousands(*frame))
         }
+        Said::BeyondRecording { frame } => {
+            format!("The recording has ended with frame {}: what comes now is no part of it.", thousands(*frame))
+        }
+        Said::Anew { t } => {
+            format!("Frames on the way were too many to be kept: the past begins at t = {} s.", significant(*t, 5))
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::{
     state::{Open, Sought, State},
 };
 use crate::{
+    format::{number, significant},
     snapshot::{Class, Contact, Kind, Logged},
     view::{self, CardView},
     worker::Command,
@@ -34,9 +35,24 @@ impl State {
     pub(super) fn look_at_sought(&mut self) {
         match self.sought.take_if(|_| !self.running) {
             Some(Sought::Event(event)) => self.take_apart(&event),
-            Some(Sought::Impact) => self.select_what_collides(),
+            Some(Sought::Impact | Sought::FirstLook) => self.select_what_collides(),
+            Some(Sought::Time) => self.answer = self.past_the_duration(self.report.snapshot.t),
             None => {}
         }
+    }
+
+    /// Goes to the time `t`, s.
+    pub(super) fn goto(&mut self, t: f64) {
+        self.head_for(Command::Goto(t), true);
+        self.sought = Some(Sought::Time);
+        self.say("On the way to the first frame that ends then or later; Esc stops.");
+    }
+
+    /// What there is to say of a time `t`, s, beyond what the scene is meant for.
+    fn past_the_duration(&self, t: f64) -> Option<String> {
+        let duration = self.current.scene.duration;
+        let said = || format!("t = {} s is past the scene's duration, {} s.", significant(t, 5), number(duration));
+        (t > duration).then(said)
     }
 
     /// Opens the card of an event.

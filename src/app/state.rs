@@ -49,6 +49,10 @@ pub(super) enum Sought {
     Event(Logged),
     /// Whatever impact comes: what collides is selected.
     Impact,
+    /// A time.
+    Time,
+    /// The impact that a newcomer sees first: it is selected, and what is said of it is already there.
+    FirstLook,
 }
 
 /// A trial step of a frame's search, to be drawn as often as need be.
@@ -188,7 +192,7 @@ impl State {
         match (&self.open, self.report.activity) {
             (Open::Scenes(_), _) => Place::List,
             (Open::Help { .. }, _) => Place::Help,
-            (Open::Events(_), _) => Place::Events,
+            (Open::Events(list), _) => Place::Events { narrowed: !list.typed().is_empty() },
             _ if self.report.kept.is_past => Place::Past,
             (_, Activity::Paused) if struck() => Place::Impact { searched: !snapshot.trials.is_empty() },
             _ => Place::Run,

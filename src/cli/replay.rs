@@ -36,14 +36,11 @@ pub(super) fn replay(arguments: &Replay, signals: &Signals) -> Result<(), Failur
         }
         if let Some(suspect) = Sums::of(&run.state()).suspect(*recorded, spheres) {
             let what = match suspect {
-                Suspect::Sphere(index) => format!("sphere {index} is"),
-                Suspect::Time => "the time is".into(),
-                Suspect::Several => "more than one sphere is, or the file is damaged there:".into(),
+                Suspect::Sphere(index) => format!("sphere {index} is not as recorded"),
+                Suspect::Time => "its time is not as recorded".into(),
+                Suspect::Several => "more than one sphere is not as recorded, or the file is damaged there".into(),
             };
-            return Err(failed(format!(
-                "frame {compared}, at t = {:?} s, differs: {what} not as recorded",
-                run.time()
-            )));
+            return Err(failed(format!("frame {compared}, at t = {:?} s, differs: {what}", run.time())));
         }
         compared += 1;
         goes_on = compared == recording.frames.len() || next_recorded(&mut run, &mut changes, signals)?;

@@ -321,6 +321,9 @@ impl Talk {
             }
             (_, count) => writeln!(self.out, "{number} is not allowed: there are contacts 0 to {}.", count - 1)?,
         }
+        for line in explain::acting(&self.app.report().snapshot, " and ").iter().take(100) {
+            writeln!(self.out, "{}: {}.", line.label, line.text)?;
+        }
         Ok(self.out.flush()?)
     }
 

@@ -27,21 +27,22 @@ pub(super) fn lines(approach: &Approach) -> Vec<Line> {
     vec![
         Line::new("gap", polynomial),
         Line::new("roots", listed),
-        Line::new("chosen", format!("{}: t = {} s", which(approach, &roots, time - since), number(time))),
+        Line::new("chosen", which(approach, &roots, time - since)),
     ]
 }
 
 /// Which root the contact is, and why that one.
-fn which(approach: &Approach, roots: &[f64], tau: f64) -> &'static str {
+fn which(approach: &Approach, roots: &[f64], tau: f64) -> String {
     let falls = |root: &&f64| approach.slope(**root) <= 0.0;
     let is = |root: &f64| (root - tau).abs() <= CLOSE * tau.max(approach.time.abs());
-    match roots.iter().filter(falls).position(is) {
+    let why = match roots.iter().filter(falls).position(is) {
         Some(0) => "the first root at which it falls: there they touch and approach",
         Some(_) => {
             "a root at which it falls; before it they came closer by less than rounding, or touched another part"
         }
-        None => "they touch already, and begin to approach now",
-    }
+        None => return "they touch already, and begin to approach now".into(),
+    };
+    format!("τ = {} s, {why}", significant(tau, DIGITS))
 }
 
 /// `0.512 − 1.2 τ − 4.9 τ²`.

@@ -33,6 +33,18 @@ pub fn card(snapshot: &Snapshot, index: usize, between: &str) -> Option<Card> {
     Some(Card { bodies: of.bodies(between), class: contact.class, lines: lines.into_iter().flatten().collect() })
 }
 
+/// What acts over a snapshot's frame from the one before, a line each. `between` stands between the bodies.
+pub fn acting(snapshot: &Snapshot, between: &str) -> Vec<Line> {
+    let line = |contact: &Contact| {
+        let bodies = Of { snapshot, contact, index: 0 }.bodies(between);
+        let (impulse, step) = (contact.impulse, snapshot.step);
+        let force = if step > 0.0 { format!(", that is {} N", measured(impulse / step)) } else { String::new() };
+        let (impulse, step) = (measured(impulse), significant(step, DIGITS));
+        Line::new("acts", format!("{bodies} of the frame before: {impulse} N s over this frame of {step} s{force}"))
+    };
+    snapshot.acting.iter().map(line).collect()
+}
+
 /// A contact and the snapshot it is of.
 struct Of<'a> {
     snapshot: &'a Snapshot,
@@ -88,7 +100,7 @@ impl Of<'_> {
         let (speed, limit) = (measured(v_n), number(0.0 - slow)); // without the sign of −0
         let reason = self.snapshot.rest_reasons.get(self.index).copied().flatten();
         let text = match (self.contact.class, reason) {
-            (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s: it collides"),
+            (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s"),
             (Class::Rest, Some(reason)) => format!("it rests: {}", reason.words()),
             (Class::Rest, None) if v_n.abs() <= slow => {
                 let (speed, slow) = (measured(v_n.abs()), number(slow));

@@ -19,7 +19,7 @@ mod line;
 mod sentence;
 mod support;
 
-pub use card::{Card, card};
+pub use card::{Card, acting, card};
 pub use line::Line;
 pub use sentence::{event, sentence};
 pub use support::support_force;

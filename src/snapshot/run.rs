@@ -33,7 +33,9 @@ pub struct Snapshot {
     pub initial_energy: f64,
     /// Every contact of the frame that ended here.
     pub contacts: Vec<Contact>,
-    /// Why each of them rests, by index; none if it does not, or where the method has no reason beyond the law.
+    /// Impacts at the end of the frame before, whose impulses have acted over this one, where a method answers them so.
+    pub acting: Vec<Contact>,
+    /// Why each of the contacts rests, by index; none if it does not, or where the method has no reason beyond the law.
     pub rest_reasons: Vec<Option<RestReason>>,
     /// How the bodies of each of the first contacts came together, by index, where the method follows single events.
     pub approaches: Vec<Option<Approach>>,
@@ -73,6 +75,7 @@ impl Snapshot {
             energy: sim.energy(),
             initial_energy: sim.initial_energy(),
             contacts: sim.contacts().to_vec(),
+            acting: Vec::new(),
             rest_reasons: sim.contacts().iter().map(|contact| reason(sim, contact)).collect(),
             approaches: approaches(sim),
             probes: sim.probes().to_vec(),

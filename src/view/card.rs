@@ -9,7 +9,7 @@ use super::{
     screen::{CardView, Screen},
     sheet::{self, Sheet},
 };
-use crate::explain::{self, Card};
+use crate::explain::{self, Card, Line};
 use crate::format;
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
 
@@ -20,6 +20,9 @@ const LIST: usize = 5;
 const CLASS: usize = 9;
 /// See [`CLASS`].
 const DEGREE: usize = 8;
+
+/// Columns for the bodies of a contact, at least.
+const BODIES: usize = 10;
 
 /// Columns for what a line is about.
 const LABEL: usize = 8;
@@ -52,7 +55,9 @@ pub(super) fn draw(screen: &Screen, card: CardView, area: Rect, sheet: &mut Shee
     let Some(chosen) = chosen(screen, card) else {
         column.heading("contact", "none in this frame");
         let faint = column.sheet().palette.faint();
-        return column.row("Esc closes", faint);
+        column.row("Esc closes", faint);
+        let acting = explain::acting(screen.snapshot, column.sheet().glyphs.with);
+        return draw_rows(&lines(&acting, &column), &mut column);
     };
     let order = order(screen.snapshot, screen.view_settings.selected);
     let cursor = order.iter().position(|&index| index == chosen).unwrap_or(0);
@@ -63,14 +68,12 @@ pub(super) fn draw(screen: &Screen, card: CardView, area: Rect, sheet: &mut Shee
     let Some(text) = explain::card(screen.snapshot, chosen, glyphs.with) else { return };
     let search = probes::Search::new(screen.snapshot, card.probe);
     // Going through the search one looks at that: it takes the card's place.
-    let rows = rows(&text, &column);
+    let mut rows = rows(&text, &column);
+    rows.extend(lines(&explain::acting(screen.snapshot, glyphs.with), &column));
     let rows = if card.probe.is_some() { &rows[..1] } else { &rows[..] };
     let hidden = rows.len().saturating_sub(column.rows());
     let from = card.scroll.min(hidden);
-    for row in &rows[from..] {
-        let pieces: Vec<(&str, Style)> = row.iter().map(|(text, style)| (text.as_str(), *style)).collect();
-        column.pieces(&pieces);
-    }
+    draw_rows(&rows[from..], &mut column);
     column.skip();
     probes::draw(&search, &mut column);
 }
@@ -101,11 +104,12 @@ fn draw_list(screen: &Screen, order: &[usize], cursor: usize, column: &mut Colum
         };
         let (word, style) = class(contact.class, column);
         let strong = if place == cursor { palette.strong() } else { palette.plain() };
-        let room = column.width().saturating_sub(2 + CLASS + DEGREE).max(10);
+        let room = column.width().saturating_sub(2 + CLASS + DEGREE).max(BODIES);
+        let degree = column.width().saturating_sub(2 + room + CLASS).min(DEGREE);
         column.pieces(&[
             (&format!("{pointer} {bodies:<room$}"), strong),
             (&format!("{word:<CLASS$}"), style),
-            (&format::scientific(contact.degree, DEGREE), palette.faint()),
+            (&format::scientific(contact.degree, degree), palette.faint()),
         ]);
     }
     column.skip();
@@ -127,14 +131,29 @@ fn rows(card: &Card, column: &Column) -> Vec<Row> {
     let palette = column.sheet().palette;
     let (word, style) = class(card.class, column);
     let mut rows = vec![vec![(format!("{}  ", card.bodies), palette.strong()), (word.to_owned(), style)]];
+    rows.extend(lines(&card.lines, column));
+    rows
+}
+
+/// Lines with their labels, wrapped beside them.
+fn lines(lines: &[Line], column: &Column) -> Vec<Row> {
+    let palette = column.sheet().palette;
     let room = column.width().saturating_sub(LABEL).max(1);
-    for line in &card.lines {
+    let mut rows = Vec::new();
+    for line in lines {
         for (index, text) in sheet::wrap(&line.text, room as u16).into_iter().enumerate() {
             let label = if index == 0 { line.label } else { "" };
             rows.push(vec![(format!("{label:<LABEL$}"), palette.faint()), (text, palette.plain())]);
         }
     }
     rows
+}
+
+fn draw_rows(rows: &[Row], column: &mut Column) {
+    for row in rows {
+        let pieces: Vec<(&str, Style)> = row.iter().map(|(text, style)| (text.as_str(), *style)).collect();
+        column.pieces(&pieces);
+    }
 }
 
 #[cfg(test)]

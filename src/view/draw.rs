@@ -99,7 +99,7 @@ pub fn cursor(screen: &Screen, area: Rect) -> Option<Position> {
 
 /// How far the key table can be scrolled down at this size: rows of it that do not fit.
 pub fn help_scroll_limit(rows: &[(&str, &str)], settings: &ViewSettings, area: Rect) -> usize {
-    popup_places(settings, area).map_or(0, |(body, _)| help::scroll_limit(rows, body))
+    popup_places(settings, area).map_or(0, |(body, _)| help::scroll_limit(rows, settings.marker, body))
 }
 
 /// (where lists go, where the prompt goes), if there is room for any.

@@ -3,7 +3,10 @@
 use ratatui::layout::Rect;
 
 use super::{
+    glyphs::{Glyphs, glyphs},
     layout::{split_left, split_top},
+    legend,
+    screen::Marker,
     sheet::{self, Sheet},
 };
 
@@ -23,13 +26,13 @@ struct Table {
     keys: u16,
 }
 
-/// Draws the table in the body, scrolled down by so many rows.
-pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &mut Sheet) {
+/// Draws the table in the body, scrolled down by so many rows: the keys, then the signs.
+pub(super) fn draw(keys: &[(&str, &str)], scroll: usize, body: Rect, sheet: &mut Sheet) {
     let (head, place) = split(body);
     if place.is_empty() {
         return;
     }
-    let table = Table::new(entries, place);
+    let table = Table::of(keys, sheet.glyphs, place);
     let width = place.width / table.columns.len() as u16;
     let height = usize::from(place.height);
     let limit = table.rows().saturating_sub(height);
@@ -46,9 +49,12 @@ pub(super) fn draw(entries: &[(&str, &str)], scroll: usize, body: Rect, sheet: &
 }
 
 /// How many rows the table in the body can be scrolled down.
-pub(super) fn scroll_limit(entries: &[(&str, &str)], body: Rect) -> usize {
+pub(super) fn scroll_limit(keys: &[(&str, &str)], marker: Marker, body: Rect) -> usize {
     let (_, place) = split(body);
-    if place.is_empty() { 0 } else { Table::new(entries, place).rows().saturating_sub(place.height.into()) }
+    if place.is_empty() {
+        return 0;
+    }
+    Table::of(keys, glyphs(marker), place).rows().saturating_sub(place.height.into())
 }
 
 /// (heading, table).
@@ -57,6 +63,14 @@ fn split(body: Rect) -> (Rect, Rect) {
 }
 
 impl Table {
+    /// The table of keys, and of the signs that go with a marker.
+    fn of(keys: &[(&str, &str)], glyphs: &Glyphs, place: Rect) -> Table {
+        let signs = legend::signs(glyphs);
+        let signs = signs.iter().map(|(sign, means)| (sign.as_str(), *means));
+        let entries: Vec<(&str, &str)> = keys.iter().copied().chain(signs).collect();
+        Table::new(&entries, place)
+    }
+
     /// As few columns as show everything at once, and never more than fit side by side.
     fn new(entries: &[(&str, &str)], place: Rect) -> Table {
         let most = (place.width / LEAST).max(1);
@@ -120,7 +134,8 @@ fn draw_head(above: usize, below: usize, head: Rect, sheet: &mut Sheet) {
     if below > 0 {
         remark += &format!("{} {below} below  ", sheet.glyphs.more[1]);
     }
-    let used = sheet.put_all(head, &[(" ", palette.plain()), ("keys", palette.heading()), (&remark, palette.faint())]);
+    let used = sheet
+        .put_all(head, &[(" ", palette.plain()), ("keys and signs", palette.heading()), (&remark, palette.faint())]);
     let (_, rest) = split_left(head, used);
     if rest.width > 12 {
         sheet.put_right(split_left(rest, rest.width - 1).0, "Esc closes", palette.faint());

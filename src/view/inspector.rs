@@ -56,7 +56,7 @@ fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     if change.is_finite() {
         column.entry("  since 0", &format::decimal(change, 10, 4), "%");
     }
-    column.entry("deepest", &format::scientific(tallies.deepest_degree, 10), "degree");
+    column.entry("deepest", &format::scientific(tallies.deepest_degree, 10), "overlap");
     column.entry("frames", &format::thousands(tallies.frames), "");
     column.entry("impacts", &format::thousands(tallies.impacts), "");
     column.entry("rests", &format::thousands(tallies.rests), "");
@@ -104,7 +104,7 @@ fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
 fn draw_legend(column: &mut Column) {
     let (faint, arrow) = (column.sheet().palette.faint(), column.sheet().glyphs.arrow);
     let bodies = column.width().saturating_sub(CLASS + DEGREE);
-    column.row(&format!("{:<bodies$}{:<CLASS$}{:>DEGREE$}", "bodies", "class", "degree"), faint);
+    column.row(&format!("{:<bodies$}{:<CLASS$}{:>DEGREE$}", "bodies", "class", "overlap"), faint);
     column.row(&format!("{:>7}{arrow}{:<9}{:>11}", "before", "after m/s", "J in N s"), faint);
 }
 

@@ -19,7 +19,7 @@
 //! | `column`, `inspector`, `sphere`, `probes` | the inspector: its rows, its sections, the selected sphere, the search for the collision time |
 //! | `distribution` | how many spheres are how fast, or where: a chart |
 //! | `card` | one contact taken apart, in the inspector's place |
-//! | `status`, `timeline`, `trade`, `prompt`, `help`, `scenes`, `events` | a strip or popup each |
+//! | `status`, `timeline`, `trade`, `prompt`, `help`, `legend`, `scenes`, `events` | a strip or popup each; what the signs mean |
 
 mod arrows;
 mod canvas;
@@ -33,6 +33,7 @@ mod help;
 mod ink;
 mod inspector;
 mod layout;
+mod legend;
 mod overlays;
 mod palette;
 mod pane;

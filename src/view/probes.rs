@@ -75,7 +75,7 @@ pub(super) fn draw(search: &Search, column: &mut Column) {
         draw_chart(search, column);
     }
     let palette = column.sheet().palette;
-    column.row("      step s      degree", palette.faint());
+    column.row("      step s     overlap", palette.faint());
     let rows = column.rows().saturating_sub(1).min(probes.len());
     let last = search.at.map_or(probes.len(), |at| (at + 1 + rows / 2).clamp(rows, probes.len()));
     for index in last - rows..last {

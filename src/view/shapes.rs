@@ -84,23 +84,22 @@ fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, 
         return;
     }
     let (width, height) = (canvas.width(), canvas.height());
-    let mut dot = |x: f64, y: f64| {
-        let (x, y) = (x.round() as i32, y.round() as i32);
+    let mut dot = |x: i32, y: i32| {
         if wanted(x, y) {
             canvas.dot(x, y, ink);
         }
     };
     // Half a dot more than the eighth of the circle, so that steep and flat parts meet without a hole.
     let h = r * FRAC_1_SQRT_2 + 0.5;
-    for y in range(c.1 - h, c.1 + h, height).map(f64::from) {
-        let half = half_chord(r, y - c.1);
-        dot(c.0 - half, y);
-        dot(c.0 + half, y);
+    for y in range(c.1 - h, c.1 + h, height) {
+        let half = half_chord(r, f64::from(y) - c.1);
+        dot(nearest(c.0 - half), y);
+        dot(nearest(c.0 + half), y);
     }
-    for x in range(c.0 - h, c.0 + h, width).map(f64::from) {
-        let half = half_chord(r, x - c.0);
-        dot(x, c.1 - half);
-        dot(x, c.1 + half);
+    for x in range(c.0 - h, c.0 + h, width) {
+        let half = half_chord(r, f64::from(x) - c.0);
+        dot(x, nearest(c.1 - half));
+        dot(x, nearest(c.1 + half));
     }
 }
 
@@ -158,10 +157,18 @@ fn half_chord(r: f64, d: f64) -> f64 {
 
 /// The whole numbers from `from` to `to` that are in 0..size.
 fn range(from: f64, to: f64, size: i32) -> std::ops::Range<i32> {
-    // `as` saturates, so infinite ends are cut like all others.
-    let first = from.ceil().max(0.0) as i32;
-    let end = ((to.floor() + 1.0).min(f64::from(size))).max(0.0) as i32;
-    first..end
+    // `as` cuts to whole numbers and saturates; calls of `ceil` and `floor` would be a part of what a circle costs.
+    let (from, to) = (from.clamp(0.0, f64::from(size)), to.min(f64::from(size)));
+    let first = from as i32;
+    let end = if to < 0.0 { 0 } else { (to as i32 + 1).min(size) };
+    first + i32::from(f64::from(first) < from)..end
+}
+
+/// The whole number nearest to `x`, of two the one farther from 0: as `round`, without a call.
+fn nearest(x: f64) -> i32 {
+    let whole = x as i32;
+    let rest = x - f64::from(whole);
+    whole.saturating_add(i32::from(rest >= 0.5) - i32::from(rest <= -0.5))
 }
 
 #[cfg(test)]
@@ -169,6 +176,20 @@ mod tests {
     use ratatui::layout::Rect;
 
     use super::*;
+
+    #[test]
+    fn whole_numbers_are_those_that_ceil_floor_and_round_give() {
+        let mut ends =
+            vec![0.0, -0.0, 0.5, -0.5, 1.5, -1.5, 2.5, 0.49999999999999994, 39.5, 40.0, 41.0, -1.0, 1e300, -1e300];
+        ends.extend((1..2000).map(|i| f64::from(i * 37 % 1009) / 19.0 - 8.0));
+        for &from in &ends {
+            assert_eq!(nearest(from), from.round() as i32, "{from}");
+            for &to in &ends[..20] {
+                let wanted: Vec<i32> = (0..40).filter(|&i| f64::from(i) >= from && f64::from(i) <= to).collect();
+                assert_eq!(range(from, to, 40).collect::<Vec<_>>(), wanted, "{from} to {to}");
+            }
+        }
+    }
 
     fn drawn(draw: impl Fn(&mut Canvas)) -> Vec<(i32, i32)> {
         let mut canvas = Canvas::new(Rect::new(0, 0, 40, 20));

@@ -144,13 +144,11 @@ fn far_to_near(view: &View) -> Vec<usize> {
         Side::Side => snapshot.x[i].z,
         Side::Top => snapshot.x[i].y,
     };
-    let mut order: Vec<usize> = (0..snapshot.x.len()).collect();
     let selected = view.screen.view_settings.selected;
-    order.sort_by(|&a, &b| {
-        let last = |i: usize| selected == Some(i);
-        last(a).cmp(&last(b)).then(nearness(a).total_cmp(&nearness(b)))
-    });
-    order
+    let mut order: Vec<(bool, f64, usize)> =
+        (0..snapshot.x.len()).map(|i| (selected == Some(i), nearness(i), i)).collect();
+    order.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+    order.into_iter().map(|(_, _, i)| i).collect()
 }
 
 /// Free: an outline. Resting: with a chord. Colliding: filled. Tiny: a dot or a few, a bar, a cross.

@@ -39,7 +39,7 @@ pub(super) fn draw(screen: &Screen, comparison: &Comparison, area: Rect, sheet: 
     let rows: [Row; 5] = [
         ("error", "m", &trade.deviation, Scale::Log),
         ("energy", "relative", &trade.energy_error, Scale::Log),
-        ("deepest", "degree", &trade.deepest_degree, Scale::Log),
+        ("deepest", "overlap", &trade.deepest_degree, Scale::Log),
         ("gaps", "a frame", &trade.evaluations, Scale::Linear),
         ("CPU", "ms/s", &trade.cost, Scale::Linear),
     ];

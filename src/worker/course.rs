@@ -4,11 +4,15 @@
 //! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
 //! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
 
+mod nearby;
+mod scout;
 mod taken;
 
 use super::{
+    acting::Acting,
     job::Job,
-    keyframes::{Keyframes, MOST_FRAMES, NOTICED, RECENT},
+    keyframes::{CLOSE, Keyframes, RECENT},
+    replay_cost::Meter,
     tape::{Found, Script, Tape},
 };
 use crate::{
@@ -16,12 +20,13 @@ use crate::{
     scene::{Method, Settings},
     snapshot::Kept,
 };
+use scout::Scout;
 
 /// Changes that are remembered: more than a hand makes in hours. When there are more, the history begins anew.
 const MOST_CHANGES: usize = 1 << 16;
 
-/// How long a scout goes on before commands are looked at again, s.
-const SCOUTING: f64 = 2e-3;
+/// Counted work, ns, after which a call is over: commands are looked at again.
+const CALL: u64 = 1_000_000;
 
 /// A change of settings.
 #[derive(Debug, Clone, Copy)]
@@ -34,24 +39,13 @@ struct Change {
     settings: Settings,
 }
 
-/// A run that is done again while nothing else is to do, to be kept near the frame that is shown.
-#[derive(Debug)]
-struct Scout {
-    run: Simulation,
-    changes: usize,
-    /// The frame to be kept, and the one that is shown.
-    target: u64,
-    shown: u64,
-    /// Work so far, s.
-    work: f64,
-}
-
 /// The run where it had come to, while an earlier frame is shown.
 #[derive(Debug)]
 struct Newest {
     simulation: Simulation,
     stall: Option<Stall>,
     whole: bool,
+    acting: Acting,
 }
 
 /// A run and its past.
@@ -74,8 +68,9 @@ pub(super) struct Course {
     begun: f64,
     first_impacts: u64,
     newest: Option<Box<Newest>>,
-    /// The earlier frame that the run is on its way to from a keyframe, and the work since that or the one kept last, s.
-    toward: Option<(u64, f64)>,
+    /// The earlier frame that the run is on its way to from a keyframe, and what counts the work since that or the one kept
+    /// last.
+    toward: Option<(u64, Meter)>,
     scout: Option<Box<Scout>>,
     /// The frame that was shown when a scout came home last.
     scouted: Option<u64>,
@@ -88,6 +83,8 @@ pub(super) struct Course {
     found: Option<Found>,
     /// What has happened again and was not told yet.
     passed: Vec<Contact>,
+    /// What acts over the frame shown, or in progress, from the one before.
+    acting: Acting,
 }
 
 impl Course {
@@ -96,17 +93,15 @@ impl Course {
         let simulation = begin(&job);
         let mut script = job.recording.clone().map(Script::new);
         let found = script.as_mut().and_then(|script| script.compare(&simulation));
-        let mut keyframes = Keyframes::default();
-        keyframes.keep(&simulation, 0, || 0.0);
         Course {
             begun: simulation.time(),
             first_impacts: simulation.tallies().impacts,
+            keyframes: Keyframes::of(&simulation),
             job,
             simulation,
             stall: None,
             whole: true,
             waiting: None,
-            keyframes,
             changes: Vec::new(),
             changed: 0,
             from_start: true,
@@ -119,6 +114,7 @@ impl Course {
             script,
             found,
             passed: Vec::new(),
+            acting: Acting::default(),
         }
     }
 
@@ -244,23 +240,37 @@ impl Course {
         self.frame_by_frame = on;
     }
 
-    /// Goes on: one call of [`Simulation::advance`] to the goal, or to a frame before it where there is something to do.
+    /// Goes on to the goal, for about `work` units, or to a frame before it where there is something to do. Frames are kept
+    /// on the way.
     pub(super) fn advance(&mut self, until: Until, work: u64) -> Progress {
         if self.is_past() {
-            return self.replay(until, work);
+            let progress = self.replay(until, work);
+            self.keep_on_the_way();
+            return progress;
         }
-        if let Until::Time(t) = until
-            && !self.simulation.counts_frames_to(t)
-        {
-            self.begin_anew(); // frames are as long as this goal makes them: they could not be found again
+        let mut done = 0;
+        loop {
+            let frame_by_frame = self.goes_frame_by_frame();
+            let progress = self.advance_a_leg(until, work);
+            if !self.whole {
+                return progress;
+            }
+            done += self.keyframes.look(&self.simulation, (self.changed, &self.acting));
+            let there = until == Until::Frame || matches!(until, Until::Time(t) if t <= self.time());
+            if there || progress != Progress::Reached || done > CALL || frame_by_frame {
+                return progress;
+            }
         }
+    }
+
+    /// One call of [`Simulation::advance`].
+    fn advance_a_leg(&mut self, until: Until, work: u64) -> Progress {
         self.make_due(false);
+        self.leave_script();
+        self.note_acting();
         let before = self.frame();
-        let one_by_one = self.frame_by_frame
-            || self.tape.is_some()
-            || self.script.as_ref().is_some_and(|script| script.goes_on(self.frame()));
-        let waits = one_by_one || self.waiting.is_some() || self.keyframes.is_due(self.frame() + 1);
-        let progress = self.simulation.advance(if waits { Until::Frame } else { until }, work.min(self.most_work()));
+        let until = self.leg(until);
+        let progress = self.simulation.advance(until, work);
         self.whole = progress == Progress::Reached;
         if let Progress::Stalled(stall) = &progress {
             self.stall = Some(stall.clone());
@@ -281,69 +291,34 @@ impl Course {
         progress
     }
 
-    /// Takes note that the last advance took so long, s, and keeps the frame if it is time to; `clock` tells the time, s.
-    pub(super) fn note_work(&mut self, seconds: f64, clock: impl Fn() -> f64) {
-        if self.is_past() {
-            return self.keep_on_the_way(seconds);
-        }
-        self.keyframes.note_work(seconds);
-        if self.whole && self.keyframes.is_due(self.frame()) {
-            self.keyframes.keep(&self.simulation, self.changed, clock);
-        }
-    }
-
-    /// Keeps what comes shortly before the frame that the run is on its way to: the next step back is quick then.
-    fn keep_on_the_way(&mut self, seconds: f64) {
-        let frame = self.frame();
-        let Some((target, work)) = &mut self.toward else { return };
-        *work += seconds;
-        if self.whole && frame < *target && frame + RECENT >= *target && *work > NOTICED {
-            self.keyframes.insert(&self.simulation, self.changed, std::mem::take(work));
+    /// How far one call goes on the way to a goal: a frame, so that it can be kept, unless they are too many.
+    fn leg(&mut self, until: Until) -> Until {
+        match until {
+            Until::Time(t) if !self.goes_frame_by_frame() && !self.simulation.counts_frames_to(t) => {
+                self.found = self.from_start.then_some(Found::Anew).or(self.found.take());
+                self.begin_anew(); // frames are as long as this goal makes them: they could not be found again
+                until
+            }
+            _ => Until::Frame,
         }
     }
 
-    /// Whether a call may do less than so many units of work.
-    pub(super) fn limits(&self, work: u64) -> bool {
-        work > self.most_work()
+    /// Whether a call ends with every frame.
+    fn goes_frame_by_frame(&self) -> bool {
+        let follows = || self.script.as_ref().is_some_and(|script| script.goes_on(self.frame()));
+        self.frame_by_frame || self.waiting.is_some() || self.tape.is_some() || follows()
     }
 
-    /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
-    /// `work`; whether there is more to do. `clock` tells the time, s.
-    pub(super) fn scout(&mut self, work: u64, clock: impl Fn() -> f64) -> bool {
-        let shown = self.frame();
-        let Some(scout) = self.scout.as_mut().filter(|scout| scout.shown == shown) else {
-            self.scout = self.send_scout(shown);
-            return self.scout.is_some();
-        };
-        let start = clock();
-        let mut progress = Progress::Reached;
-        while progress == Progress::Reached && scout.run.tallies().frames < scout.target && clock() - start < SCOUTING {
-            progress = scout.run.advance(Until::Frame, work);
+    /// What acts over the next frame, if none is in progress.
+    fn note_acting(&mut self) {
+        if self.whole {
+            self.acting.note(&self.simulation);
         }
-        scout.run.take_events();
-        scout.work += clock() - start;
-        let there = scout.run.tallies().frames >= scout.target;
-        if !there && !matches!(progress, Progress::Stalled(_)) {
-            return true;
-        }
-        self.scouted = Some(shown);
-        if let Some(scout) = self.scout.take().filter(|_| there) {
-            self.keyframes.insert(&scout.run, scout.changes, scout.work);
-        }
-        false
     }
 
-    fn send_scout(&self, shown: u64) -> Option<Box<Scout>> {
-        let kept = self.keyframes.lacking_before(shown).filter(|_| self.scouted != Some(shown))?;
-        let target = shown - RECENT;
-        let change = self.changes.get(kept.changes).map_or(u64::MAX, |change| change.frame);
-        let scout = || Scout { run: kept.run(), changes: kept.changes, target, shown, work: 0.0 };
-        (change > target).then(|| Box::new(scout()))
-    }
-
-    /// Units of work in which no more frames can pass than a replay may have to look at.
-    fn most_work(&self) -> u64 {
-        MOST_FRAMES.saturating_mul(self.simulation.model().len().max(1) as u64)
+    /// Impacts of the frame before whose impulses have acted over the frame shown.
+    pub(super) fn acting(&self) -> &[Contact] {
+        self.acting.over(&self.simulation)
     }
 
     /// Does again what was done from here on, up to the goal or the next change.
@@ -357,10 +332,10 @@ impl Course {
             self.apply(change.settings);
         } else {
             let next = self.changes.get(self.changed).map_or(f64::INFINITY, |change| change.time);
+            let seen = self.frame_by_frame || self.simulation.settings().method == Method::Paper;
+            self.note_acting();
             let until = match until {
-                Until::Time(t) if !self.frame_by_frame && t.min(next) > self.simulation.time() => {
-                    Until::Time(t.min(next))
-                }
+                Until::Time(t) if !seen && t.min(next) > self.simulation.time() => Until::Time(t.min(next)),
                 _ => Until::Frame,
             };
             let progress = self.simulation.advance(until, work);
@@ -397,8 +372,9 @@ impl Course {
     /// Goes back to the newest frame.
     pub(super) fn take_up(&mut self) {
         if let Some(newest) = self.newest.take() {
-            let Newest { simulation, stall, whole } = *newest;
+            let Newest { simulation, stall, whole, acting } = *newest;
             (self.simulation, self.stall, self.whole) = (simulation, stall, whole);
+            self.acting = acting;
             self.changed = self.changes.len();
         }
     }
@@ -416,12 +392,12 @@ impl Course {
         if here.is_some_and(|here| keyframe.is_none_or(|kept| kept.frame <= here)) {
             return;
         }
-        let (run, changes) = match keyframe {
-            Some(kept) => (kept.run(), kept.changes),
-            None => (begin(&self.job), 0),
+        let (run, changes, acting) = match keyframe {
+            Some(kept) => (kept.run(), kept.changes, kept.acting.clone()),
+            None => (begin(&self.job), 0, Acting::default()),
         };
-        self.put_aside(run, changes);
-        self.toward = Some((frame, 0.0));
+        self.put_aside(run, changes, acting);
+        self.toward = Some((frame, Meter::of(&self.simulation)));
     }
 
     /// Sets out for the first frame that ends at or after `time`, s.
@@ -448,11 +424,12 @@ impl Course {
     }
 
     /// Shows an earlier run, of which so many changes have been made.
-    fn put_aside(&mut self, run: Simulation, changes: usize) {
+    fn put_aside(&mut self, run: Simulation, changes: usize, acting: Acting) {
         let before = std::mem::replace(&mut self.simulation, run);
         let (stall, whole) = (self.stall.take(), std::mem::replace(&mut self.whole, true));
+        let acting = std::mem::replace(&mut self.acting, acting);
         if self.newest.is_none() {
-            self.newest = Some(Box::new(Newest { simulation: before, stall, whole }));
+            self.newest = Some(Box::new(Newest { simulation: before, stall, whole, acting }));
         }
         (self.waiting, self.changed) = (None, changes);
         self.catch_up();
@@ -461,7 +438,7 @@ impl Course {
     /// Lets the run go on from here: later frames are dropped; how many.
     pub(super) fn branch(&mut self) -> u64 {
         let Some(newest) = self.newest.take() else { return 0 };
-        self.keyframes.cut(self.frame(), self.time());
+        self.keyframes.cut(&self.simulation);
         self.scouted = None;
         self.changes.truncate(self.changed);
         let frame = self.frame();
@@ -471,7 +448,7 @@ impl Course {
 
     /// Forgets all that was before.
     fn begin_anew(&mut self) {
-        self.keyframes = Keyframes::default();
+        self.keyframes = Keyframes::none(&self.simulation);
         self.changes.clear();
         self.changed = 0;
         (self.tape, self.script) = (None, None);

@@ -1,7 +1,8 @@
 //! Moments of a run that are kept, so that any frame is a short replay away: bounded memory, the oldest thinned first.
 //!
-//! Where they lie depends on how fast the machine is; what a replay from them leads to does not.
+//! Where they lie follows from counted work, so that they are the same on every machine and however busy it is.
 
+use super::{acting::Acting, replay_cost::Meter};
 use crate::{
     physics::{Keyframe, Simulation},
     snapshot::{EventLog, shows_trials},
@@ -13,29 +14,23 @@ const HISTORY: usize = 64 << 20;
 /// Memory that all keyframes may take, bytes.
 pub(super) const BUDGET: usize = HISTORY - EventLog::MOST_BYTES;
 
-/// What is left of the budget after a thinning, so that it need not be done again at once.
-const THINNED: usize = BUDGET / 8 * 7;
-
 /// Memory that a single keyframe may take, bytes: of a run that needs more none is kept.
 const LARGEST: usize = HISTORY / 4;
 
-/// Work from one keyframe to the next, s, unless copying costs more than a share of it: a replay that is not noticed.
-const SPACING: f64 = 1e-3;
+/// Work from one keyframe to the next, at least: a replay that is not noticed. Work is counted, in ns.
+pub(super) const SPACING: u64 = 1_000_000;
 
-/// How many times what a copy costs lies between two: three hundredths are not noticed.
-const SHARE: f64 = 32.0;
+/// Work from one keyframe to the next for each byte of it: a copy takes a few hundredths of that.
+const SPACING_OF_A_BYTE: u64 = 6;
 
-/// Work between two at most, s, whatever a copy costs, and after thinning: what a replay may take.
-const FARTHEST: f64 = 0.05;
+/// Work between two at most, until they are thinned: one frame back is on the screen at once, whatever a copy costs.
+pub(super) const CLOSE: u64 = 3_000_000;
 
-/// Frames between two at most: where frames are nearly free, a replay still looks at each.
-pub(super) const MOST_FRAMES: u64 = 1 << 14;
+/// Work between two at most, after thinning: what a replay may take.
+pub(super) const FARTHEST: u64 = 50_000_000;
 
 /// The last frames, which one goes back to most: their keyframes are not thinned as long as others are left.
 pub(super) const RECENT: u64 = 100;
-
-/// Work from one keyframe to the next, s, that is too much where one goes back frame by frame.
-pub(super) const NOTICED: f64 = 3e-3;
 
 /// A keyframe and where it belongs.
 #[derive(Debug)]
@@ -50,23 +45,29 @@ pub(super) struct Kept {
     pub(super) changes: usize,
     /// Whether the frame that ended then is shown with its inside, which a keyframe does not hold.
     has_inside: bool,
-    /// Work from the keyframe before, s.
-    gap: f64,
+    /// Work from the keyframe before, ns.
+    gap: u64,
     keyframe: Keyframe,
+    /// What acts over the frame that ended then.
+    pub(super) acting: Acting,
+    /// Memory that it takes, bytes.
+    bytes: usize,
 }
 
 impl Kept {
-    /// A run between two frames, with the number of recorded changes it includes; none if it is too large.
-    fn of(run: &Simulation, changes: usize) -> Option<Kept> {
+    /// A run between two frames, with the number of recorded changes it includes, and what acts over the frame that has
+    /// ended; none if it is too large.
+    fn of(run: &Simulation, (changes, acting): (usize, &Acting)) -> Option<Kept> {
         if run.model().len() * size_of::<[f64; 6]>() > LARGEST {
             return None; // it need not be tried
         }
-        let keyframe = run.keyframe();
+        let (keyframe, acting) = (run.keyframe(), acting.clone());
         let tallies = run.tallies();
         let (frame, impacts) = (tallies.frames, tallies.impacts);
         let has_inside = frame > 0 && shows_trials(run);
-        let kept = Kept { frame, time: run.time(), impacts, changes, has_inside, gap: 0.0, keyframe };
-        (kept.keyframe.bytes() <= LARGEST).then_some(kept)
+        let bytes = keyframe.bytes() + acting.bytes();
+        let kept = Kept { frame, time: run.time(), impacts, changes, has_inside, gap: 0, keyframe, acting, bytes };
+        (bytes <= LARGEST).then_some(kept)
     }
 
     /// The run as it was.
@@ -76,16 +77,22 @@ impl Kept {
 }
 
 /// The keyframes of a run, in the order of their frames.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Keyframes {
     list: Vec<Kept>,
+    /// What they take, and what they may take, bytes.
     bytes: usize,
-    /// Work since the last one, s.
-    since: f64,
-    /// What copying cost last time, s.
-    copying: f64,
-    /// How far the list has been thinned: work between two, s.
-    thinned: f64,
+    room: usize,
+    /// Counts the work of the run.
+    meter: Meter,
+    /// Work since the last one, ns, up to the last look.
+    since: u64,
+    /// Frames completed at the last look.
+    looked: u64,
+    /// Work after which the next one is kept, ns.
+    spacing: u64,
+    /// How far the list has been thinned: work between two, ns.
+    thinned: u64,
     /// The first frame after the last one that was dropped, and its time, s; none as long as all are a short way off.
     front: Option<(u64, f64)>,
     /// Whether the run's keyframes are too large to keep any.
@@ -93,6 +100,29 @@ pub(super) struct Keyframes {
 }
 
 impl Keyframes {
+    /// Those of a run that is between two frames: this one, if it is not too large.
+    pub(super) fn of(run: &Simulation) -> Keyframes {
+        let mut keyframes = Keyframes::none(run);
+        keyframes.keep(run, (0, &Acting::default()));
+        keyframes
+    }
+
+    /// None yet: the first frame that ends from here on is kept.
+    pub(super) fn none(run: &Simulation) -> Keyframes {
+        Keyframes {
+            list: Vec::new(),
+            bytes: 0,
+            room: BUDGET,
+            meter: Meter::of(run),
+            since: 0,
+            looked: run.tallies().frames,
+            spacing: SPACING,
+            thinned: 0,
+            front: None,
+            too_large: false,
+        }
+    }
+
     /// The first of all.
     pub(super) fn first(&self) -> Option<&Kept> {
         self.list.first()
@@ -115,53 +145,74 @@ impl Keyframes {
         self.front
     }
 
-    /// Takes note of work that the run has done, s.
-    pub(super) fn note_work(&mut self, seconds: f64) {
-        self.since += seconds;
+    /// The run is between two frames, its newest: keeps it if it is time to, with the number of recorded changes it
+    /// includes, and what acts over the frame that has ended. Asked at every frame; what that has cost, ns of counted work.
+    pub(super) fn look(&mut self, run: &Simulation, told: (usize, &Acting)) -> u64 {
+        let frame = run.tallies().frames;
+        if self.too_large || frame <= self.looked {
+            return 0;
+        }
+        self.looked = frame;
+        let work = self.meter.read(run);
+        self.since = self.since.saturating_add(work);
+        if self.since >= self.spacing || self.list.is_empty() {
+            self.keep(run, told);
+        }
+        work
     }
 
-    /// Whether it is time to keep `frame`.
-    pub(super) fn is_due(&self, frame: u64) -> bool {
-        let last = self.list.last().map_or(0, |kept| kept.frame);
-        let far = self.since >= (SHARE * self.copying).clamp(SPACING, FARTHEST) || frame - last >= MOST_FRAMES;
-        !self.too_large && (far || self.list.is_empty()) && (frame > last || self.list.is_empty())
-    }
-
-    /// Keeps a run between two frames, behind all others, with the number of recorded changes it includes; `clock`
-    /// tells the time, s.
-    pub(super) fn keep(&mut self, run: &Simulation, changes: usize, clock: impl Fn() -> f64) {
-        let start = clock();
-        let Some(mut kept) = Kept::of(run, changes) else {
+    /// Keeps a run between two frames, behind all others.
+    fn keep(&mut self, run: &Simulation, told: (usize, &Acting)) {
+        let Some(mut kept) = Kept::of(run, told) else {
             self.too_large = true;
             return;
         };
-        // a copy that was interrupted tells nothing
-        let took = clock() - start;
-        self.copying = if self.copying > 0.0 { took.min(1.25 * self.copying) } else { took };
+        let bytes = kept.bytes;
+        self.spacing = (bytes as u64).saturating_mul(SPACING_OF_A_BYTE).clamp(SPACING, CLOSE);
         kept.gap = std::mem::take(&mut self.since);
-        self.bytes += kept.keyframe.bytes();
+        self.bytes += bytes;
         self.list.push(kept);
-        if self.bytes > BUDGET {
+        if self.bytes > self.room {
             self.thin();
         }
     }
 
-    /// Keeps a run at its place among the others, so much work (s) after the one before, unless that frame is kept.
-    pub(super) fn insert(&mut self, run: &Simulation, changes: usize, work: f64) {
+    /// Keeps a run between two frames, its newest, as if it had worked so much more (ns).
+    #[cfg(test)]
+    pub(super) fn keep_now(&mut self, run: &Simulation, told: (usize, &Acting), work: u64) {
+        if self.list.last().is_none_or(|last| last.frame < run.tallies().frames) {
+            self.since += self.meter.read(run) + work;
+            self.keep(run, told);
+        }
+    }
+
+    /// Gives the keyframes less room, bytes.
+    #[cfg(test)]
+    pub(super) fn shrink(&mut self, room: usize) {
+        self.room = room;
+    }
+
+    /// The frames that are kept.
+    #[cfg(test)]
+    pub(super) fn frames(&self) -> Vec<u64> {
+        self.list.iter().map(|kept| kept.frame).collect()
+    }
+
+    /// Keeps a run at its place among the others, so much work (ns) after the one before, unless that frame is kept, or there
+    /// is no room but that of frames that would be lost.
+    pub(super) fn insert(&mut self, run: &Simulation, told: (usize, &Acting), work: u64) {
         let frame = run.tallies().frames;
-        let place = self.list.partition_point(|other| other.frame < frame);
-        if self.list.get(place).is_some_and(|other| other.frame == frame) {
+        let is_kept = self.list.binary_search_by_key(&frame, |other| other.frame).is_ok();
+        let Some(mut kept) = Kept::of(run, told).filter(|_| !is_kept) else { return };
+        if self.bytes + kept.bytes > self.room && !self.thin_out() {
             return;
         }
-        let Some(mut kept) = Kept::of(run, changes) else { return };
         kept.gap = work;
+        let place = self.list.partition_point(|other| other.frame < frame);
         let after = self.list.get_mut(place).map_or(&mut self.since, |after| &mut after.gap);
-        *after = (*after - work).max(0.0);
-        self.bytes += kept.keyframe.bytes();
+        *after = after.saturating_sub(work);
+        self.bytes += kept.bytes;
         self.list.insert(place, kept);
-        if self.bytes > BUDGET {
-            self.thin();
-        }
     }
 
     /// A keyframe from which a run should be done again up to the last frame that is [`RECENT`] before `frame`, to be kept
@@ -171,57 +222,77 @@ impl Keyframes {
         let count = self.list.partition_point(|kept| kept.frame <= target);
         let before = &self.list[count.checked_sub(1)?];
         let work = self.list.get(count).map_or(self.since, |after| after.gap);
-        (before.frame + RECENT < target && work > NOTICED).then_some(before)
+        (before.frame + RECENT < target && work > CLOSE).then_some(before)
     }
 
-    /// Drops what came after `frame`, at which the run is, at `time` (s); the next frame is worth a keyframe.
-    pub(super) fn cut(&mut self, frame: u64, time: f64) {
+    /// Drops what came after the frame at which the run is; the next one is worth a keyframe.
+    pub(super) fn cut(&mut self, run: &Simulation) {
+        let (frame, time) = (run.tallies().frames, run.time());
+        self.meter = Meter::of(run);
         let count = self.list.partition_point(|kept| kept.frame <= frame);
-        self.bytes -= self.list[count..].iter().map(|kept| kept.keyframe.bytes()).sum::<usize>();
+        let gap = self.list.get(count).map_or(self.since, |after| after.gap);
+        self.bytes -= self.list[count..].iter().map(|kept| kept.bytes).sum::<usize>();
         self.list.truncate(count);
-        self.since = FARTHEST;
+        // the work up to here is not known, but no more than up to the first that was dropped
+        (self.since, self.spacing, self.looked) = (gap, 0, frame);
         self.front = self.front.map(|front| if front.0 > frame { (frame, time) } else { front });
     }
 
     /// Every second one of the oldest goes, as long as what is left is a short way apart; then the oldest go for good.
     fn thin(&mut self) {
+        if self.thin_out() {
+            return;
+        }
+        let (mut dropped, mut gone) = (1, 0_u64);
+        while self.bytes > self.thin_to() && dropped + 1 < self.list.len() {
+            self.bytes -= self.list[dropped].bytes;
+            gone = gone.saturating_add(self.list[dropped].gap);
+            dropped += 1;
+        }
+        self.list.drain(1..dropped);
+        // so far it is from the start now: it is not to be merged
+        if let Some(front) = self.list.get_mut(1) {
+            front.gap = front.gap.saturating_add(gone);
+        }
+        // the inside of that frame itself would take the run from the start
+        self.front = self.list.get(1).map(|kept| (kept.frame + u64::from(kept.has_inside), kept.time));
+    }
+
+    /// Every second one of the oldest goes, as long as what is left is a short way apart; whether there is room then.
+    fn thin_out(&mut self) -> bool {
         let newest = self.list.last().map_or(0, |kept| kept.frame);
         let recent = self.list.partition_point(|kept| kept.frame + RECENT < newest);
         self.thinned = self.thinned.max(SPACING);
         loop {
             self.merge(recent);
-            if self.bytes <= THINNED {
-                return;
+            if self.bytes <= self.thin_to() || self.thinned >= FARTHEST {
+                return self.bytes <= self.thin_to();
             }
-            if self.thinned >= FARTHEST {
-                break;
-            }
-            self.thinned = (2.0 * self.thinned).min(FARTHEST);
+            self.thinned = (2 * self.thinned).min(FARTHEST);
         }
-        let mut dropped = 1;
-        while self.bytes > THINNED && dropped + 1 < self.list.len() {
-            self.bytes -= self.list[dropped].keyframe.bytes();
-            dropped += 1;
-        }
-        self.list.drain(1..dropped);
-        self.front = self.list.get(1).map(|kept| (kept.frame, kept.time));
+    }
+
+    /// What is left of the room after a thinning, bytes, so that it need not be done again at once.
+    fn thin_to(&self) -> usize {
+        self.room / 8 * 7
     }
 
     /// Drops every keyframe between whose neighbours no more work lies than thinning allows now, from the oldest on and
     /// up to the one at `recent`, until there is room. The first stays.
     fn merge(&mut self, recent: usize) {
-        let (mut bytes, mut gone, thinned) = (self.bytes, 0.0, self.thinned);
-        let gaps: Vec<f64> = self.list.iter().map(|kept| kept.gap).collect();
+        let (mut bytes, mut gone, thinned, left) = (self.bytes, 0_u64, self.thinned, self.thin_to());
+        let gaps: Vec<u64> = self.list.iter().map(|kept| kept.gap).collect();
         let mut i = 0;
         self.list.retain_mut(|kept| {
-            let next = gaps.get(i + 1).copied().unwrap_or(f64::INFINITY);
-            let goes = bytes > THINNED && i > 0 && i < recent && gone + kept.gap + next <= thinned;
+            let next = gaps.get(i + 1).copied().unwrap_or(u64::MAX);
+            let between = gone.saturating_add(kept.gap).saturating_add(next);
+            let goes = bytes > left && i > 0 && i < recent && between <= thinned;
             i += 1;
             if goes {
-                bytes -= kept.keyframe.bytes();
-                gone += kept.gap;
+                bytes -= kept.bytes;
+                gone = gone.saturating_add(kept.gap);
             } else {
-                kept.gap += std::mem::take(&mut gone);
+                kept.gap = kept.gap.saturating_add(std::mem::take(&mut gone));
             }
             !goes
         });
@@ -235,16 +306,15 @@ mod tests {
     use crate::physics::{Progress, Until};
     use crate::scene::{self, Method, Settings};
 
-    /// A run of a thousand spheres, one keyframe a frame, each `gap` (s) of work from the last; what the clock tells.
-    fn filled(frames: usize, gap: f64) -> (Keyframes, Simulation) {
+    /// A run of a thousand spheres, one keyframe a frame, each `gap` (ns) of work from the last.
+    fn filled(frames: usize, gap: u64) -> (Keyframes, Simulation) {
         let scene = scene::open("box-gas").expect("built in").scene;
         let mut run = Simulation::new(&scene, Settings { method: Method::Exact, ..scene.solver });
-        let mut keyframes = Keyframes::default();
-        keyframes.keep(&run, 0, || 0.0);
+        let mut keyframes = Keyframes::of(&run);
         for _ in 0..frames {
             assert_eq!(run.advance(Until::Frame, 1 << 30), Progress::Reached);
-            keyframes.note_work(gap);
-            keyframes.keep(&run, 0, || 0.0);
+            keyframes.since += gap;
+            keyframes.keep(&run, (0, &Acting::default()));
             assert!(keyframes.bytes <= BUDGET);
         }
         (keyframes, run)
@@ -252,7 +322,7 @@ mod tests {
 
     #[test]
     fn the_oldest_are_thinned_first_and_the_last_hundred_frames_stay() {
-        let (keyframes, run) = filled(2000, 1e-3);
+        let (keyframes, run) = filled(2000, SPACING);
         let kept: Vec<u64> = keyframes.list.iter().map(|kept| kept.frame).collect();
         let newest = run.tallies().frames;
         assert_eq!((kept[0], kept.last()), (0, Some(&newest)));
@@ -260,40 +330,50 @@ mod tests {
         assert!(kept.len() < 2000, "{} are kept", kept.len());
         assert!(keyframes.list.iter().all(|kept| kept.gap <= FARTHEST), "each is a short way from the one before");
         assert_eq!(keyframes.front(), None);
-        let sum: f64 = keyframes.list.iter().map(|kept| kept.gap).sum();
-        assert!((sum - 2.0).abs() < 1e-9, "no work is lost: {sum} s; rounding of 2000 sums only");
+        let sum: u64 = keyframes.list.iter().map(|kept| kept.gap).sum();
+        assert_eq!(sum, 2000 * SPACING, "no work is lost");
     }
 
     #[test]
     fn what_would_be_a_long_way_apart_is_dropped_for_good_but_for_the_start() {
-        let (keyframes, run) = filled(2000, 0.04);
+        let (keyframes, run) = filled(2000, FARTHEST / 5 * 4);
         let (front, _) = keyframes.front().expect("they were too many");
         assert!(front > 0 && front < run.tallies().frames - RECENT, "{front}");
         assert_eq!((keyframes.list[0].frame, keyframes.list[1].frame), (0, front));
+        assert!(keyframes.list[1].gap > FARTHEST, "so far it is from the start");
         assert!(keyframes.list[2..].iter().all(|kept| kept.gap <= FARTHEST));
     }
 
     #[test]
-    fn what_comes_after_a_frame_is_cut_off() {
-        let (mut keyframes, _) = filled(50, 1e-3);
-        keyframes.cut(20, 0.1);
+    fn what_comes_after_a_frame_is_cut_off_and_the_next_is_kept() {
+        let (mut keyframes, run) = filled(50, SPACING);
+        let mut back = keyframes.before(20).expect("each is kept").run();
+        keyframes.cut(&back);
         assert_eq!(keyframes.list.last().map(|kept| kept.frame), Some(20));
-        assert_eq!(keyframes.bytes, keyframes.list.iter().map(|kept| kept.keyframe.bytes()).sum::<usize>());
+        assert_eq!(keyframes.bytes, keyframes.list.iter().map(|kept| kept.bytes).sum::<usize>());
         assert_eq!(keyframes.before(7).map(|kept| kept.frame), Some(7));
+        back.advance(Until::Frame, 1 << 30);
+        keyframes.look(&back, (0, &Acting::default()));
+        assert_eq!(keyframes.list.last().map(|kept| kept.frame), Some(21));
+        assert!(run.tallies().frames > 21);
     }
 
     #[test]
-    fn a_keyframe_is_due_after_work_or_many_frames_and_never_twice_in_a_frame() {
-        let (mut keyframes, run) = filled(0, 0.0);
-        let frame = run.tallies().frames;
-        assert!(!keyframes.is_due(frame));
-        assert!(!keyframes.is_due(frame + 1));
-        assert!(keyframes.is_due(frame + MOST_FRAMES));
-        keyframes.note_work(SPACING);
-        assert!(keyframes.is_due(frame + 1) && !keyframes.is_due(frame));
-        keyframes.copying = SPACING;
-        assert!(!keyframes.is_due(frame + 1), "it would cost too much");
-        keyframes.note_work((SHARE - 1.0) * SPACING);
-        assert!(keyframes.is_due(frame + 1));
+    fn a_frame_is_kept_after_counted_work_and_never_twice() {
+        let (mut keyframes, mut run) = filled(0, 0);
+        let (mut kept, mut since) = (1, 0);
+        for _ in 0..3000 {
+            assert_eq!(run.advance(Until::Frame, 1 << 30), Progress::Reached);
+            since += keyframes.look(&run, (0, &Acting::default()));
+            let is_due = since >= keyframes.spacing;
+            assert_eq!(keyframes.look(&run, (0, &Acting::default())), 0, "a frame is looked at once");
+            if keyframes.list.len() > kept {
+                assert!(since >= SPACING, "too early: {since} ns");
+                (kept, since) = (kept + 1, 0);
+            } else {
+                assert!(!is_due, "{since} ns are enough");
+            }
+        }
+        assert!(kept > 3, "{kept}");
     }
 }

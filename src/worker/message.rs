@@ -208,4 +208,14 @@ pub enum Said {
         /// Whether all of it was as recorded.
         same: bool,
     },
+    /// The run goes on beyond the end of the recording that it has followed.
+    BeyondRecording {
+        /// The recording's last frame.
+        frame: u64,
+    },
+    /// On the way to a far time frames were too many to be counted: none before this one is kept.
+    Anew {
+        /// Its time, s.
+        t: f64,
+    },
 }

@@ -10,13 +10,15 @@
 //! | `thread` | the worker, seen from its reader |
 //! | `run`, `pace` | what its thread does: obey, advance by a slice, report; how fast |
 //! | `goal`, `heading`, `stop` | where the run ends its advance, and how it gets there; what it waits for |
-//! | `course`, `keyframes` | the run and its past; what of it is kept |
+//! | `course`, `keyframes`, `replay_cost` | the run and its past; what of it is kept; what a frame costs to be done again |
 //! | `tape`, `recorder` | a recording under way, and one that is followed |
+//! | `acting` | what acts over a frame from the one before |
 //! | `around` | what was shortly before, and what comes next of a sphere |
 //! | `exact_follower` | the exact run that follows the run shown |
 //! | `errands` | a thread for what takes long and may be overtaken |
 //! | `slot`, `mailbox` | how threads hand things over without waiting |
 
+mod acting;
 mod around;
 mod course;
 mod errands;
@@ -29,6 +31,7 @@ mod mailbox;
 mod message;
 mod pace;
 mod recorder;
+mod replay_cost;
 mod run;
 mod slot;
 mod stop;

@@ -37,6 +37,8 @@ impl Runner {
         match self.course.take_found() {
             Some(Found::Differs(frame, suspect)) => self.say(Said::Differs { frame, t, suspect }),
             Some(Found::End(frame, same)) => self.say(Said::RecordingEnds { frame, same }),
+            Some(Found::Beyond(frame)) => return self.say(Said::BeyondRecording { frame }),
+            Some(Found::Anew) => return self.say(Said::Anew { t }),
             None => return,
         }
         self.stop_here();

@@ -381,7 +381,6 @@ impl Runner {
             self.moved = true;
         }
         self.unreported = true;
-        self.course.note_work(took, || self.clock.elapsed().as_secs_f64());
         if std::mem::take(&mut self.frame_is_over) {
             self.events.clear();
         }
@@ -397,8 +396,7 @@ impl Runner {
                 self.arrive();
                 self.tell_found();
             }
-            Progress::Yielded if took > CALL || !self.course.limits(self.slices.work()) => self.slices.learn(took),
-            Progress::Yielded => {}
+            Progress::Yielded => self.slices.learn(took),
             Progress::Stalled(_) => {
                 self.give_takers();
                 self.goal = Goal::Nowhere;
@@ -417,7 +415,8 @@ impl Runner {
             }
             let snapshot = Snapshot::of(&self.course.job().stage, run, self.course.stall());
             let alarm = until(both(&self.alarm, self.watch.alarm()), snapshot.t);
-            self.snapshot = Arc::new(Snapshot { alarm, ..snapshot });
+            let acting = self.course.acting().to_vec();
+            self.snapshot = Arc::new(Snapshot { alarm, acting, ..snapshot });
         }
         self.moved = false;
         self.unreported = false;

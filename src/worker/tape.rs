@@ -85,13 +85,17 @@ pub(super) struct Script {
     differs: bool,
 }
 
-/// What a run has found of the recording that it follows.
+/// What a run has come upon on its way, most of it of the recording that it follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Found {
     /// This frame is the first that differs.
     Differs(u64, Suspect),
     /// The recording ends with this frame; whether all of it was as recorded.
     End(u64, bool),
+    /// The run goes on beyond this frame, with which the recording has ended.
+    Beyond(u64),
+    /// Frames were too many to be counted: none before is kept.
+    Anew,
 }
 
 impl Script {

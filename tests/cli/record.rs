@@ -41,7 +41,12 @@ fn a_flipped_bit_names_its_frame_and_the_file_is_damaged() {
         flipped[start + 8 * frame + 2] ^= 0x10;
         fs::write(&file, flipped).expect("written");
         let ran = carom(&["replay", &file]).fails_with(1);
-        assert!(ran.err.contains(&format!("frame {frame}, at t = ")) && ran.err.contains("differs"), "{}", ran.err);
+        assert!(ran.err.contains(&format!("frame {frame}, at t = ")), "{}", ran.err);
+        assert!(
+            ran.err.contains("differs: more than one sphere is not as recorded, or the file is damaged there"),
+            "{}",
+            ran.err
+        );
     }
 }
 

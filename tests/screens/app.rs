@@ -44,21 +44,36 @@ impl User {
     pub(crate) fn bound(scene: &str, paused: bool, keymap: Keymap) -> User {
         let opened = scene::open(scene).expect("the scene loads");
         let settings = opened.scene.solver;
-        User::set_up(opened, settings, paused, (keymap, None))
+        User::set_up(opened, settings, (paused, false), (keymap, None))
     }
 
     /// Paused on a recording.
     pub(crate) fn replays(recording: Recording) -> User {
         let scene = scene::parse(&recording.scene, &recording.key).expect("the scene loads");
         let opened = Opened { key: recording.key.clone(), path: None, scene };
-        User::set_up(opened, recording.settings, true, (Keymap::default(), Some(recording)))
+        User::set_up(opened, recording.settings, (true, false), (Keymap::default(), Some(recording)))
     }
 
-    fn set_up(opened: Opened, settings: Settings, paused: bool, more: (Keymap, Option<Recording>)) -> User {
+    /// What a newcomer sees first, on a screen of that size.
+    pub(crate) fn new_here(width: u16, height: u16) -> User {
+        let opened = scene::open("billiard").expect("built in");
+        let settings = opened.scene.solver;
+        let mut user = User::set_up(opened, settings, (false, true), (Keymap::default(), None));
+        user.screen = Buffer::empty(Rect::new(0, 0, width, height));
+        user.settle();
+        user
+    }
+
+    fn set_up(
+        opened: Opened,
+        settings: Settings,
+        (paused, taken_apart): (bool, bool),
+        more: (Keymap, Option<Recording>),
+    ) -> User {
         let (keymap, recording) = more;
         let inks = Inks::default();
         let folder = tempfile::tempdir().expect("a folder");
-        let (marker, colors, taken_apart) = (Marker::Ascii, Colors::Ansi16, false);
+        let (marker, colors) = (Marker::Ascii, Colors::Ansi16);
         let path = folder.path().into();
         let setup =
             Setup { opened, settings, paused, taken_apart, marker, colors, inks, keymap, recording, folder: path };
@@ -118,12 +133,13 @@ impl User {
 
     /// Row `y` of the screen; negative: from the bottom.
     pub(crate) fn row(&self, y: i32) -> String {
-        let y = y.rem_euclid(24) as u16;
-        (0..80).map(|x| self.screen[(x, y)].symbol()).collect()
+        let Rect { width, height, .. } = self.screen.area;
+        let y = y.rem_euclid(height.into()) as u16;
+        (0..width).map(|x| self.screen[(x, y)].symbol()).collect()
     }
 
     pub(crate) fn text(&self) -> String {
-        (0..24).map(|y| self.row(y) + "\n").collect()
+        (0..i32::from(self.screen.area.height)).map(|y| self.row(y) + "\n").collect()
     }
 }
 

@@ -69,3 +69,31 @@ fn messages_name_keys_as_they_are_bound() {
     user.type_in("U");
     assert!(user.text().contains("! asks until what to run"), "{}", user.text());
 }
+
+#[test]
+fn an_impulse_of_paper_is_shown_in_the_frame_over_which_it_acts_however_one_comes_there() {
+    let mut user = User::with("paper-1"); // a sphere of 1 kg under 9.8 m/s², sliding down a slope
+    user.type_in("c");
+    let (contact, before) = (user.snapshot().contacts[0], user.snapshot().v[0]);
+    assert!(user.snapshot().acting.is_empty(), "nothing was struck the frame before");
+    user.type_in(".w");
+    let acting = user.snapshot().acting.clone();
+    assert_eq!((acting.len(), acting[0].key(), acting[0].impulse), (1, contact.key(), contact.impulse));
+    let step = user.snapshot().step;
+    let gained = user.snapshot().v[0] - before - user.snapshot().stage.gravity * step;
+    // the mass is 1 kg; gravity's part is taken off by a subtraction: rounding. Along the wall it is rubbed as well.
+    assert!((gained.dot(contact.normal) - contact.impulse).abs() < 1e-12, "{gained}");
+    let text = user.text();
+    assert!(text.contains("contact  none in this frame") && text.contains("acts"), "{text}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for word in ["3.1223 N", "0.01 s", "312.23 N"] {
+        assert!(words.contains(word), "{word}: {text}");
+    }
+    let frame = user.snapshot().tallies.frames;
+    for keys in [",.", "...,,,", ":goto 5\n:goto 0.23\n", "gG:goto 0.1\n:goto 0.23\n"] {
+        user.type_in(keys);
+        assert_eq!((user.snapshot().tallies.frames, &user.snapshot().acting), (frame, &acting), "{keys}");
+    }
+    user.type_in("g:method exact\nc.");
+    assert!(user.snapshot().acting.is_empty(), "exact answers at once");
+}

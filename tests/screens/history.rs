@@ -260,6 +260,37 @@ fn a_run_that_cannot_go_on_can_be_gone_back_in() {
 }
 
 #[test]
+fn a_time_past_the_duration_is_said_to_be_so() {
+    let mut user = User::with("paper-0");
+    user.type_in(":goto 2\n");
+    assert!(user.row(-1).starts_with(" space"), "it is there, and there is nothing to say: {}", user.row(-1));
+    user.type_in(":goto 25\n");
+    assert!(said(&user).contains("s is past the scene's duration, 20 s."), "{}", user.text());
+    user.type_in("m:goto 1e9\n");
+    assert!(
+        said(&user).contains("Frames on the way were too many to be kept: the past begins at t = "),
+        "{}",
+        user.text()
+    );
+    user.type_in("g");
+    assert!(said(&user).contains("Nothing before t = "), "{}", user.text());
+}
+
+#[test]
+fn what_a_newcomer_sees_first_is_there_whole() {
+    for (width, height) in [(80, 24), (110, 30), (120, 40)] {
+        let user = User::new_here(width, height);
+        let (text, all) = (user.text(), said(&user));
+        assert_eq!(user.snapshot().contacts.len(), 1, "{text}");
+        assert!(user.row(-1).contains("A collision taken apart. space runs on, c goes to the next, ? lists the keys."));
+        assert!(user.row(-2).contains("1 impact") && !all.contains("Stopped"), "a row of message, no more: {text}");
+        for word in ["why", "point", "J  ", "lost", "overlap", "gap", "roots", "chosen", "approach"] {
+            assert!(text.contains(word), "{width}x{height}: {word} is missing in\n{text}");
+        }
+    }
+}
+
+#[test]
 fn an_earlier_frame_looks_as_stored() {
     let mut scene = stages::wedge();
     scene.pace.mode = Mode::Back;

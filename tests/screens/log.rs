@@ -129,6 +129,7 @@ fn typing_narrows_the_list_and_says_what_cannot_be_typed() {
     assert!(user.row(1).contains("x is not allowed: a filter takes"), "{}", user.row(1));
     user.type_in("\x1b0 1");
     assert!(user.row(1).contains(&of(&|event| event.kind == carom::physics::Kind::Pair)), "{}", user.row(1));
+    assert!(user.row(-1).contains("Esc show all"), "{}", user.row(-1));
     user.type_in("\n");
     let pair = user.snapshot().contacts.iter().any(|contact| (contact.a, contact.b) == (0, 1));
     assert!(pair, "Enter goes to the last one that is shown\n{}", user.text());

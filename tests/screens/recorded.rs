@@ -114,6 +114,29 @@ fn what_ends_a_run_writes_its_recording_and_what_loses_it_says_so() {
 }
 
 #[test]
+fn a_recording_stops_at_its_end_however_far_one_wants_to_go_and_says_when_it_is_left() {
+    for method in ["", "m", "mm", "mmm"] {
+        let mut user = User::with("paper-0");
+        user.type_in(&format!("{method}E:goto 1\nE"));
+        let recording = recording(&user, "paper-0-1.carom");
+        let end = recording.frames.len() as u64 - 1;
+        let mut user = User::replays(recording);
+        user.type_in(":goto 1e9\n");
+        let text = format!("The recording ends here, with frame {end}: all of it as recorded.");
+        assert!(said(&user).contains(&text), "{}", user.text());
+        assert_eq!(user.snapshot().tallies.frames, end);
+        user.type_in(".");
+        let text = format!("The recording has ended with frame {end}: what comes now is no part of it.");
+        assert!(said(&user).contains(&text), "{}", user.text());
+        assert_eq!(user.snapshot().tallies.frames, end + 1);
+        user.type_in(".");
+        assert!(!said(&user).contains("no part of it"), "once is enough: {}", user.text());
+        user.type_in("gr:goto 1e9\n");
+        assert_eq!(user.snapshot().tallies.frames, end, "it is followed again from the start");
+    }
+}
+
+#[test]
 fn a_recording_is_gone_through_like_a_run_and_its_frames_are_compared() {
     let mut user = User::with("paper-3");
     user.type_in("E:goto 1\nmm:goto 1.5\ns:goto 2\n");

@@ -99,6 +99,7 @@ pub(crate) fn scene(key: &str, spheres: &[(DVec3, DVec3)]) -> Scene {
         energy: 98.0,
         initial_energy: 98.0,
         contacts: Vec::new(),
+        acting: Vec::new(),
         rest_reasons: Vec::new(),
         approaches: Vec::new(),
         probes: Vec::new(),

@@ -40,6 +40,14 @@ impl Course {
         self.changes.len() > before
     }
 
+    /// Beyond the end of the recording that was followed nothing is compared.
+    pub(super) fn leave_script(&mut self) {
+        let frame = self.frame();
+        if self.script.take_if(|script| !script.goes_on(frame)).is_some() {
+            self.found = Some(Found::Beyond(frame));
+        }
+    }
+
     /// A frame has ended, and nothing was changed there yet.
     pub(super) fn note_frame(&mut self) {
         if let Some(tape) = &mut self.tape {

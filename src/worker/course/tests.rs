@@ -3,6 +3,7 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use super::*;
+use crate::worker::keyframes::{BUDGET, FARTHEST};
 use crate::{
     random::SplitMix64,
     scene,
@@ -59,7 +60,8 @@ impl Walk {
 
     /// All that is shown of the frame at which the run is.
     fn told(&self) -> Snapshot {
-        Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall())
+        let told = Snapshot::of(&self.course.job().stage, self.course.simulation(), self.course.stall());
+        Snapshot { acting: self.course.acting().to_vec(), ..told }
     }
 
     fn look(&mut self) {
@@ -70,10 +72,17 @@ impl Walk {
     /// One frame on, keyframes some thirty frames apart; false if the run cannot go on.
     fn frame(&mut self) -> bool {
         let progress = self.course.advance(Until::Frame, WHOLE);
-        let work = 3e-3 * f64::from(u8::from(self.below(30) == 0));
-        self.course.note_work(work, || 0.0);
+        self.keep_now_and_then();
         self.look();
         progress == Progress::Reached
+    }
+
+    /// Keyframes some thirty frames apart, beside those that the work asks for.
+    fn keep_now_and_then(&mut self) {
+        if self.below(30) == 0 && self.course.whole && !self.course.is_past() {
+            let told = (self.course.changed, &self.course.acting);
+            self.course.keyframes.keep_now(&self.course.simulation, told, 0);
+        }
     }
 
     /// Goes to a frame that was seen, in slices, and finds it as it was.
@@ -83,8 +92,10 @@ impl Walk {
         while !self.course.is_at(frame) {
             let work = 1 + self.below(200);
             let progress = self.course.advance(Until::Frame, work);
-            let cost = 4e-3 * f64::from(u8::from(self.below(50) == 0));
-            self.course.note_work(cost, || 0.0);
+            if self.below(50) == 0 && self.course.whole && self.course.is_past() {
+                let told = (self.course.changed, &self.course.acting);
+                self.course.keyframes.insert(&self.course.simulation, told, 0);
+            }
             assert!(!matches!(progress, Progress::Stalled(_)) && self.course.frame() <= frame, "{name}: {progress:?}");
         }
         let (told, seen) = (self.told(), &self.seen[&frame]);
@@ -156,8 +167,7 @@ fn wander(walk: &mut Walk, turns: u64) {
         }
         let work = if walk.below(2) == 0 { 1 + walk.below(20) } else { WHOLE };
         walk.course.advance(Until::Frame, work);
-        let cost = 3e-3 * f64::from(u8::from(walk.below(30) == 0));
-        walk.course.note_work(cost, || 0.0);
+        walk.keep_now_and_then();
         if walk.course.whole || walk.course.stall().is_some() {
             walk.look(); // within a frame, its contacts are told one by one
         }
@@ -252,7 +262,8 @@ fn while_nothing_else_is_to_do_a_keyframe_is_put_before_the_last_frames() {
         walk.course.advance(Until::Frame, WHOLE);
         walk.look();
     }
-    walk.course.note_work(5e-3, || 0.0); // all of them, as far as is known: too much to be done again for a frame
+    // all of them, as far as is known, are too much to be done again for a frame
+    walk.course.keyframes.keep_now(&walk.course.simulation, (walk.course.changed, &walk.course.acting), CLOSE + 1);
     let settings = Settings { tolerance: 1e-5, ..walk.course.settings() };
     walk.course.set(settings);
     walk.look();
@@ -288,4 +299,66 @@ fn frames_that_are_too_many_to_count_are_not_kept() {
     assert_eq!(walk.course.oldest().0, walk.course.frame());
     walk.course.set_out(3);
     assert!(!walk.course.is_past(), "there is nothing to go back to");
+}
+
+/// The frames that a run keeps which goes on to `time`, s, in calls of so much work, to goals so far from each other, s.
+fn kept_by(name: &str, method: Method, time: f64, (work, goal): (u64, f64)) -> Vec<u64> {
+    let mut course = Course::new(job(name, method));
+    while course.time() < time && course.stall().is_none() {
+        let until = if goal > 0.0 { Until::Time((course.time() + goal).min(time)) } else { Until::Frame };
+        course.advance(until, work);
+    }
+    course.keyframes.frames()
+}
+
+#[test]
+fn the_same_frames_are_kept_however_a_run_is_cut_into_calls() {
+    for (name, time) in [("paper-2", 9.0), ("bouncing-49", 5.0), ("galton", 1.5), ("box-gas", 0.5), ("cannon", 10.0)] {
+        for &method in Method::ALL {
+            let whole = kept_by(name, method, time, (WHOLE, f64::INFINITY));
+            for cut in [(50, f64::INFINITY), (1000, 0.037), (WHOLE, 0.0)] {
+                let kept = kept_by(name, method, time, cut);
+                assert_eq!(kept, whole, "{name} by {method:?} in calls of {cut:?}");
+            }
+        }
+    }
+}
+
+/// Runs so many frames within so many bytes of history; then the most work, ns, that lies between a frame that is a short
+/// way off and the keyframe that it is done again from, for the last hundred and for all; and the longest frame's.
+fn longest_replays(name: &str, method: Method, frames: usize, room: usize) -> ([u64; 2], u64) {
+    let mut course = Course::new(job(name, method));
+    course.keyframes.shrink(room);
+    let (mut meter, mut work) = (Meter::of(&course.simulation), vec![0]);
+    for _ in 0..frames {
+        if course.advance(Until::Frame, WHOLE) != Progress::Reached {
+            break;
+        }
+        work.push(work.last().copied().unwrap_or(0) + meter.read(&course.simulation));
+    }
+    let front = course.kept().oldest as usize;
+    let replay = |frame: usize| {
+        let kept = course.keyframes.before(frame as u64).map_or(0, |kept| kept.frame as usize);
+        work[frame] - work[kept]
+    };
+    let newest = work.len() - 1;
+    let most = |from: usize| (from..=newest).map(replay).max().unwrap_or(0);
+    let frame = work.windows(2).map(|ends| ends[1] - ends[0]).max().unwrap_or(0);
+    ([most(front.max(newest.saturating_sub(RECENT as usize))), most(front)], frame)
+}
+
+#[test]
+fn no_kept_frame_is_farther_off_than_the_work_that_is_allowed() {
+    let scenes = [("paper-2", 2500), ("elastic-666", 400), ("inelastic-666", 300), ("galton", 600), ("box-gas", 300)];
+    for (name, frames) in scenes {
+        for &method in Method::ALL {
+            let ([_, all], frame) = longest_replays(name, method, frames, BUDGET);
+            // a frame that asks for its inside is done again as well
+            assert!(all <= CLOSE + 2 * frame, "{name} by {method:?}: {all} ns, a frame takes {frame} ns");
+            let room = if name == "paper-2" { 60_000 } else { 2_000_000 };
+            let ([last, all], frame) = longest_replays(name, method, frames, room);
+            assert!(all <= FARTHEST + 2 * frame, "{name} by {method:?} in {room} bytes: {all} ns, a frame {frame} ns");
+            assert!(last <= FARTHEST + 2 * frame, "{name} by {method:?}: {last} ns, a frame {frame} ns");
+        }
+    }
 }
