@@ -53,8 +53,8 @@ const STACKS: Generator = small(narrow::stack_scene);
 /// Every frame is judged with hundreds of spheres: two seconds.
 const CROWDS: Generator = Generator { scene: crowds::crowd_scene, halves: 4, budget: 2_000_000, boxed: false };
 
-/// What settles costs its contacts: one and a half seconds.
-const HEAPS: Generator = Generator { scene: heaps::heap_scene, halves: 3, budget: 2_000_000, boxed: false };
+/// What settles costs its contacts: one second.
+const HEAPS: Generator = Generator { scene: heaps::heap_scene, halves: 2, budget: 2_000_000, boxed: false };
 
 /// Slices of a thousand turns from which on a scene is told to have been laborious; or a second of the processor.
 const LABOUR: u64 = 200;
@@ -187,7 +187,7 @@ fn crowds_pass_the_judge() {
 
 #[test]
 fn heaps_pass_the_judge() {
-    judged_by(12, &HEAPS);
+    judged_by(6, &HEAPS);
 }
 
 #[test]

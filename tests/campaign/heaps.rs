@@ -1,4 +1,4 @@
-//! Heaps of 12 to 48 spheres that fall into bins and come to rest on each other: on both sides of the number from which
+//! Heaps of 12 to 30 spheres that fall into bins and come to rest on each other: on both sides of the number from which
 //! spheres are kept in cells.
 
 use carom::physics::Scene;
@@ -11,7 +11,7 @@ use crate::support::{G, room, scene, sphere, wall};
 /// The scene of this seed.
 pub(crate) fn heap_scene(seed: u64) -> Scene {
     let random = &mut Random(seed.wrapping_mul(0x9fb2_1c65_1e98_df25) ^ 0x3333_7777_0f0f_5a5a);
-    let count = 12 + (36.0 * random.unit()) as usize;
+    let count = 12 + (18.0 * random.unit()) as usize;
     let alike = random.unit() < 0.5;
     // bins no wider than three spheres, or one wide box; sometimes as thin as a sphere
     let bins = random.pick(&[1, 2, 4, 6]);
