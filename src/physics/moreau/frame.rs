@@ -331,6 +331,8 @@ impl Moreau {
     fn contact(&self, model: &Model, row: &Row) -> Contact {
         let (kind, a, b) = row.key;
         let touch = overlap::touch(model, &self.start.x, &self.end.x, row.key);
+        // an impulse acts where they meet within the frame; what rests is looked at where it is now
+        let normal = if row.class == Class::Collide { row.normal } else { touch.normal };
         let other = |v: &[DVec3]| if kind == Kind::Pair { v[b] } else { DVec3::ZERO };
         let (before, after) = (self.start.v[a] - other(&self.start.v), other(&self.end.v));
         Contact {
@@ -339,7 +341,7 @@ impl Moreau {
             a,
             b,
             point: touch.point,
-            normal: row.normal, // along which the impulse acts: that of the place where they meet within the frame
+            normal,
             velocity: before,
             approach_speed: row.approach,
             separation_speed: impact_law::normal_velocity(self.end.v[a], after, row.normal),
