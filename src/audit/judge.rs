@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::physics::contact::Key;
-use crate::physics::{Class, Contact, Method, Model, Settings, Simulation, State};
+use crate::physics::{Class, Contact, Kind, Method, Model, Settings, Simulation, State};
 
 use super::energy::Energy;
 use super::finding::{Bodies, Fault, Findings};
@@ -71,9 +71,15 @@ impl Judge {
         self.overlaps.passages(model, &self.before, state, self.settings.method, found);
         let held = self.overlaps.held(model, contacts);
         events.iter().for_each(|row| law::judge(model, self.settings.method, row, found));
-        // what moreau strikes it meets within the frame, not at its end
-        let placed = |row: &&Contact| self.settings.method != Method::Moreau || row.class != Class::Collide;
-        contacts.iter().filter(placed).for_each(|row| law::judge_place(model, promise, state, row, found));
+        for row in contacts {
+            law::judge_place(
+                model,
+                promise,
+                (state, moved(self.settings.method, [&self.before, state], row)),
+                row,
+                found,
+            );
+        }
         law::judge_friction(model, contacts, &held, state.t, found);
         rest::judge(model, &self.settings, frame, found);
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
@@ -97,4 +103,14 @@ impl Judge {
     pub fn findings(&self) -> &Findings {
         &self.findings
     }
+}
+
+/// How far the bodies of an impact may have moved, m, from where they met to where they are at the frame's end: `moreau` meets
+/// within the frame what it strikes.
+fn moved(method: Method, [before, after]: [&State; 2], row: &Contact) -> f64 {
+    if method != Method::Moreau || row.class != Class::Collide {
+        return 0.0;
+    }
+    let way = |i: usize| before.v[i].length().max(after.v[i].length()) * (after.t - before.t);
+    way(row.a) + if row.kind == Kind::Pair { way(row.b) } else { 0.0 }
 }

@@ -50,8 +50,15 @@ pub(super) fn reduced_mass(model: &Model, row: &Contact) -> f64 {
     }
 }
 
-/// A contact of a state at its own time: the normal points from the closest point to the centre, and the point is there.
-pub(super) fn judge_place(model: &Model, promise: Promise, state: &State, row: &Contact, findings: &mut Findings) {
+/// A contact of a state at its own time: the normal points from the closest point to the centre, and the point is there. Its
+/// bodies may have `moved` so far (m) since.
+pub(super) fn judge_place(
+    model: &Model,
+    promise: Promise,
+    (state, moved): (&State, f64),
+    row: &Contact,
+    findings: &mut Findings,
+) {
     if row.time != state.t {
         return;
     }
@@ -71,13 +78,13 @@ pub(super) fn judge_place(model: &Model, promise: Promise, state: &State, row: &
     let bodies = Bodies::from(row);
     if distance > rounding {
         let off = (row.normal - offset / distance).length();
-        findings.hold(Fault::Normal, row.time, bodies, [off, SAME + 4.0 * rounding / distance]);
+        findings.hold(Fault::Normal, row.time, bodies, [off, SAME + (4.0 * rounding + 2.0 * moved) / distance]);
     }
     // of a pair it lies anywhere in the overlap
     let depth = (reach - distance).abs() + promise.curved * reach;
     let point = match row.kind {
         Kind::Wall => [x - offset, DVec3::ZERO],
-        Kind::Pair => [x - row.normal * r, DVec3::splat(depth)],
+        Kind::Pair => [x - row.normal * r, DVec3::splat(depth + 2.0 * moved)],
     };
     let off = (row.point - point[0]).length();
     findings.hold(Fault::Point, row.time, bodies, [off, point[1].x + 4.0 * rounding]);

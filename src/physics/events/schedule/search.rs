@@ -163,15 +163,14 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
         let (records, now) = (&self.trajectories.records, self.trajectories.now);
-        let line = &records[other].trajectory;
-        let reach = records[self.slot].trajectory.r + line.r;
+        let reach = records[self.slot].trajectory.r + records[other].trajectory.r;
         let seen = self.trajectories.path_from(other);
         let near = self.path.x.distance_squared(seen.x) <= TOUCHES * (reach * reach);
         if near && !self.rests.is_empty() && self.rest_on_each_other(other) {
             return 0;
         }
         let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
-            let t = straight_pair(self.path.x - (line.x + line.v * (now - line.t)), self.path.v - line.v, reach);
+            let t = straight_pair(self.path.x - seen.x, self.path.v - seen.v, reach);
             t.map(|after| Due { after, is_contact: true })
         } else {
             let before = D::pair_horizon(plan.contact, records[other].plan.contact);
