@@ -16,7 +16,7 @@ pub(crate) const BARELY: f64 = 1e-3;
 
 /// How far it may open, in radii, before it must let go: so far that the chords, which depart from the path by a hundredth of
 /// that, do not meet it again, and so little that it may carry again as it is.
-pub(crate) const OPENED: f64 = 1e-10;
+pub(crate) const OPENED: f64 = 5e-11;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.

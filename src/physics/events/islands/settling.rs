@@ -264,16 +264,18 @@ impl Mechanics {
             self.ensure_separating(model, key, 0.0);
         }
         let stays = |index: &usize| opening.binary_search(&keys[*index]).is_err();
-        let kept: Short<usize> = (0..keys.len()).filter(stays).collect();
+        let (kept, gone): (Short<usize>, Short<usize>) = (0..keys.len()).partition(stays);
         let left: Short<Key> = kept.iter().map(|&index| keys[index]).collect();
         let rounding = if settled.curved { SUM } else { 0.0 };
         let moved = |(i, body): (&usize, &Body)| {
             self.trajectories.trajectory(*i).v.distance(body.v) > rounding * body.v.length()
         };
-        if left.len() < 2 || self.groups(&left).len() > 1 || spheres.iter().zip(&bodies).any(moved) {
+        let carried = gone.iter().any(|&index| settled.forces[index] > 0.0);
+        let moves = carried || spheres.iter().zip(&bodies).any(moved);
+        if moves || left.len() < 2 || self.groups(&left).len() > 1 {
             return Ok(Some(left));
         }
-        // what opens carries nothing: the others are as they were solved with it, up to the rounding that opens it, which an
+        // what opened carried nothing: the others are as they were solved with it, up to the rounding that opens it, which an
         // arc takes back at its end
         let members = self.members(model, &left);
         let a = members.spheres.iter().map(|&i| settled.a[spheres.partition_point(|&other| other < i)]).collect();
