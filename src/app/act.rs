@@ -89,10 +89,9 @@ impl State {
     /// Takes pasted text where text is typed.
     pub(super) fn paste(&mut self, text: &str) -> Effect {
         let typing = match &self.open {
-            Open::Prompt(_) => true,
+            Open::Prompt(_) | Open::Events(_) => true,
             Open::Scenes(list) => list.filtering(),
-            Open::Events(_) => true,
-            _ => false,
+            Open::Help { .. } | Open::Nothing => false,
         };
         if !typing {
             return Effect::Nothing;

@@ -54,8 +54,8 @@ pub(super) fn speed(wanted: f64, factor: f64) -> Result<f64, String> {
 }
 
 fn edge(what: &str, value: f64, factor: f64, example: &str) -> String {
-    let end = if factor > 1.0 { "larg" } else { "small" };
-    format!("The keys take {what} no {end}er than {value:e}; exact values: :{example}")
+    let end = if factor > 1.0 { "larger" } else { "smaller" };
+    format!("The keys take {what} no {end} than {value:e}; exact values: :{example}")
 }
 
 /// What to say of a knob that was turned and that the method does not have, if that is so.

@@ -146,9 +146,9 @@ fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
 /// rounding is far below that of its square's polynomial.
 fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     let (x, v) = (path.at(t), path.velocity(t));
-    let closing = pair_normal_velocity(x, v);
+    let (closing, then) = (pair_normal_velocity(x, v), Path { x, v, a: path.a });
     if closing < 0.0 {
-        if pair_grazes(&Path { x, v, a: path.a }, closing) {
+        if pair_grazes(&then, closing) {
             return None;
         }
         let polished = t - (x.length() - reach) / closing;
@@ -157,9 +157,7 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     if closing > 1e-13 * (path.v.length() + v.length()) {
         return None;
     }
-    let normal = x / x.length();
-    let across = v - normal * closing;
-    let bends = normal.dot(path.a) + across.length_squared() / x.length();
+    let bends = then.distance_acceleration(x / x.length(), x.length());
     (bends < 0.0).then(|| t - 2.0 * closing / bends)
 }
 

@@ -26,10 +26,18 @@ impl Path {
         self.v + self.a * t
     }
 
-    /// This path seen from `other`.
+    /// The path relative to a centre that moves on `other`: the differences of position, velocity and acceleration.
     #[inline]
     pub fn relative_to(&self, other: &Path) -> Path {
         Path { x: self.x - other.x, v: self.v - other.v, a: self.a - other.a }
+    }
+
+    /// Second derivative of the distance from the origin, m/s²: n·a + |v_⊥|²/|x|, for the unit vector `normal` along x and
+    /// the distance |x|, m.
+    #[inline]
+    pub(super) fn distance_acceleration(&self, normal: DVec3, distance: f64) -> f64 {
+        let across = self.v - normal * normal.dot(self.v);
+        normal.dot(self.a) + across.length_squared() / distance
     }
 
     /// True if the displacement certainly stays below `way` (m) until `time` (s), by the triangle inequality: the cheap

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::support::Surface;
 use crate::geometry::Parallelogram;
 
 /// A wall with what its tests need: unit normal and the dual vectors of its edges.
@@ -138,15 +139,16 @@ pub fn edge_direction(face: &Face, k: u8) -> DVec3 {
     side / side.length()
 }
 
+/// The shape of a part of a wall, `radius` (m) from a sphere's centre.
+pub(crate) fn surface(face: &Face, part: Part, radius: f64) -> Surface {
+    match part {
+        Part::Face => Surface::Face,
+        Part::Edge(k) => Surface::Edge { along: edge_direction(face, k), radius },
+        Part::Corner(_) => Surface::Round { radius },
+    }
+}
+
 /// What the curvature of a touched part adds to the second derivative of the gap, m/s²: |v_⊥|²/r at an edge or corner.
 pub fn curvature(face: &Face, part: Part, normal: DVec3, v: DVec3, r: f64) -> f64 {
-    let across = v - normal * normal.dot(v);
-    match part {
-        Part::Face => 0.0,
-        Part::Edge(k) => {
-            let along = edge_direction(face, k);
-            (across - along * along.dot(across)).length_squared() / r
-        }
-        Part::Corner(_) => across.length_squared() / r,
-    }
+    surface(face, part, r).curvature_term(normal, v)
 }

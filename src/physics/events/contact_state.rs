@@ -157,8 +157,7 @@ fn pair_state(key: Key, lines: [&Trajectory; 2], [one, two]: [Path; 2]) -> Conta
     let (reach, distance) = (r_a + r_b, relative.x.length());
     let (normal, gap) = (relative.x / distance, distance - reach);
     let v_n = pair_normal_velocity(relative.x, relative.v);
-    let across = relative.v - normal * v_n;
-    let a_n = normal.dot(relative.a) + across.length_squared() / distance;
+    let a_n = relative.distance_acceleration(normal, distance);
     let point = two.x + normal * (r_b + 0.5 * gap);
     ContactState { key, point, normal, gap, reach, velocity: relative.v, v_n, a_n, flat: false }
 }

@@ -7,12 +7,13 @@ use glam::DVec3;
 use super::contact_row::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
 use super::run::{Carried, Moreau, Stage};
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::frame_contact::FrameContact;
 use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::Stall;
 use crate::physics::wall::Face;
-use crate::physics::{impact_law, overlap, wall};
+use crate::physics::{impact_law, wall};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -330,24 +331,18 @@ impl Moreau {
 
     fn contact(&self, model: &Model, row: &Row) -> Contact {
         let (kind, a, b) = row.key;
-        let touch = overlap::touch(model, &self.start.x, &self.end.x, row.key);
+        let FrameContact { contact, .. } = FrameContact::new(model, &self.start.x, &self.end, row.key);
         // an impulse acts where they meet within the frame; what rests is looked at where it is now
-        let normal = if row.class == Class::Collide { row.normal } else { touch.normal };
+        let normal = if row.class == Class::Collide { row.normal } else { contact.normal };
         let other = |v: &[DVec3]| if kind == Kind::Pair { v[b] } else { DVec3::ZERO };
-        let (before, after) = (self.start.v[a] - other(&self.start.v), other(&self.end.v));
         Contact {
-            time: self.end.t,
-            kind,
-            a,
-            b,
-            point: touch.point,
             normal,
-            velocity: before,
+            velocity: self.start.v[a] - other(&self.start.v),
             approach_speed: row.approach,
-            separation_speed: impact_law::normal_velocity(self.end.v[a], after, row.normal),
+            separation_speed: impact_law::normal_velocity(self.end.v[a], other(&self.end.v), row.normal),
             impulse: row.impulse,
-            degree: touch.degree,
             class: row.class,
+            ..contact
         }
     }
 }

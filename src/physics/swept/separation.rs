@@ -104,9 +104,7 @@ impl Separation for Pair<'_> {
     fn acceleration(&self, s: f64) -> f64 {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let distance = x.length();
-        let normal = x / distance;
-        let across = v - normal * pair_normal_velocity(x, v);
-        normal.dot(self.path.a) + across.length_squared() / distance
+        Path { x, v, a: self.path.a }.distance_acceleration(x / distance, distance)
     }
 
     fn reach(&self) -> f64 {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::support::{Resting, Surface};
-use crate::physics::wall::{Face, Part, edge_direction, touch_part};
+use crate::physics::wall::{Face, Part, surface, touch_part};
 
 /// A body of the island.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,11 +61,7 @@ pub(crate) fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
         On::Wall(face, part) => {
             let touch = touch_part(face, part, body.x, body.r);
             let radius = body.r + touch.gap;
-            let surface = match part {
-                Part::Face => Surface::Face,
-                Part::Edge(k) => Surface::Edge { along: edge_direction(face, k), radius },
-                Part::Corner(_) => Surface::Round { radius },
-            };
+            let surface = surface(face, part, radius);
             (Resting { a: contact.a, b: None, normal: touch.normal, surface }, touch.gap)
         }
         On::Body(b) => {
