@@ -45,10 +45,10 @@ pub(super) fn next_overlays(settings: &mut ViewSettings) -> String {
 }
 
 /// An overlay by its name.
-type Named = (&'static str, fn(&mut Overlays) -> &mut bool);
+type NamedOverlay = (&'static str, fn(&mut Overlays) -> &mut bool);
 
 /// All of them.
-pub(super) const NAMED: [Named; 8] = [
+pub(super) const NAMED: [NamedOverlay; 8] = [
     ("contacts", |overlays| &mut overlays.contacts),
     ("normals", |overlays| &mut overlays.normals),
     ("velocities", |overlays| &mut overlays.velocities),

@@ -87,7 +87,7 @@ pub(super) fn is_far(c: f64, reach: f64) -> bool {
 }
 
 /// An approach at one moment, as far as its turning into a retreat depends on it.
-struct Approach {
+struct ClosingMotion {
     /// v_n < 0, m/s.
     closing: f64,
     /// How fast v_n grows, m/s².
@@ -101,7 +101,7 @@ struct Approach {
     size: f64,
 }
 
-impl Approach {
+impl ClosingMotion {
     /// Whether rounding has made an approach that is none. Where a sphere is pressed against one body and slides past
     /// another, it would otherwise be driven into the one and the other in turn, for ever at one instant. An approach that
     /// an impulse has made is none of rounding's, however shallow; that of places turns the normal.
@@ -113,7 +113,7 @@ impl Approach {
     /// Whether it turns into a retreat by itself before the gap has shrunk by `room`, m. `bends` must still be positive when
     /// v_n reaches 0.
     fn turns_within(&self, room: f64) -> bool {
-        let Approach { closing, bends, speed, acceleration, radius, .. } = *self;
+        let ClosingMotion { closing, bends, speed, acceleration, radius, .. } = *self;
         let jerk = 3.0 * speed * (acceleration + speed * speed / radius) / radius;
         bends > 0.0 && closing * closing <= 2.0 * bends * room && -2.0 * jerk * closing <= bends * bends
     }
@@ -125,7 +125,7 @@ fn pair_grazes(path: &Path, closing: f64) -> bool {
     let (distance, speed) = (path.x.length(), path.v.length());
     let bends = path.x.dot(path.a) / distance + (speed * speed - closing * closing) / distance;
     let acceleration = path.a.length();
-    Approach { closing, bends, speed, acceleration, radius: distance, size: distance }.grazes()
+    ClosingMotion { closing, bends, speed, acceleration, radius: distance, size: distance }.grazes()
 }
 
 fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
@@ -142,7 +142,7 @@ fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
     falls[..count].iter().find_map(|&t| approached_pair(path, reach, t)).filter(|&t| t < before)
 }
 
-/// When a candidate is approached: as [`Search::approached`] for walls. One Newton step on the distance itself, whose
+/// When a candidate is approached: as [`WallSearch::approached`] for walls. One Newton step on the distance itself, whose
 /// rounding is far below that of its square's polynomial.
 fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     let (x, v) = (path.at(t), path.velocity(t));
@@ -165,7 +165,7 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
 /// both sides. Only times below `before` (s) matter.
 #[inline]
 pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64> {
-    let search = Search { path, r, face, before };
+    let search = WallSearch { path, r, face, before };
     let height = [face.height(path.x), face.normal.dot(path.v), 0.5 * face.normal.dot(path.a)];
     if height[0].abs() > r {
         let side = if height[0] < 0.0 { -1.0 } else { 1.0 };
@@ -187,14 +187,14 @@ pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64>
 }
 
 /// One sphere, one wall.
-struct Search<'a> {
+struct WallSearch<'a> {
     path: &'a Path,
     r: f64,
     face: &'a Face,
     before: f64,
 }
 
-impl Search<'_> {
+impl WallSearch<'_> {
     /// Whether the wall is certainly too far away: tiles beside the one that a sphere bounces on, of which the closest point
     /// takes longer to find. Asked where the plane is within reach, and so is the wall if the foot lies on it.
     fn is_out_of_reach(&self) -> bool {
@@ -366,7 +366,8 @@ impl Search<'_> {
         // as in `approached`: over an edge a fast sphere leaves what it was pressed against
         let part = part_ahead(self.face, x, v, a, self.r);
         let bends = at.normal.dot(a) + curvature(self.face, part, at.normal, v, self.r);
-        let approach = Approach { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size };
+        let approach =
+            ClosingMotion { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size };
         if ahead { approach.turns_within(room) } else { approach.grazes() }
     }
 

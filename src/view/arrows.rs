@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{
-    canvas::{Ink, Layer},
+    canvas::{Layer, Stroke},
     pane::View,
     shapes,
     sheet::Sheet,
@@ -99,12 +99,12 @@ impl Quantity {
             Quantity::Impulse => sheet.palette.alarm(),
             Quantity::Force => sheet.palette.notice(),
         };
-        let ink = Ink::new(Layer::Arrow, style);
+        let stroke = Stroke::new(Layer::Arrow, style);
         let snapshot = view.screen.snapshot;
         for index in self.drawn(view).0 {
             let contact = &snapshot.contacts[index];
             if let Some(amount) = self.of(snapshot, contact) {
-                draw_pushes(view, contact, amount / per_meter, ink);
+                draw_pushes(view, contact, amount / per_meter, stroke);
             }
         }
     }
@@ -116,29 +116,29 @@ fn bodies(contact: &Contact) -> [Option<usize>; 2] {
 }
 
 /// Arrows of so many metres along a contact's normal, outside the spheres that it pushes.
-pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, ink: Ink) {
+pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, stroke: Stroke) {
     let snapshot = view.screen.snapshot;
     let other = (contact.kind == Kind::Pair).then_some((contact.b, -contact.normal));
     for (sphere, normal) in [(contact.a, contact.normal)].into_iter().chain(other) {
         let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { continue };
         let rim = *x + normal * *radius;
-        draw_arrow(view, rim, rim + normal * length, ink);
+        draw_arrow(view, rim, rim + normal * length, stroke);
     }
 }
 
 /// A line from one point of the world to another, with two barbs at 45° to it.
-pub(super) fn draw_arrow(view: &mut View, from: DVec3, to: DVec3, ink: Ink) {
+pub(super) fn draw_arrow(view: &mut View, from: DVec3, to: DVec3, stroke: Stroke) {
     let (tail, tip) = (view.project(from), view.project(to));
     if tail == tip {
         return;
     }
-    shapes::line(&mut view.canvas, tail, tip, ink);
+    shapes::line(&mut view.canvas, tail, tip, stroke);
     let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
     let length = (dx * dx + dy * dy).sqrt();
     if length.is_nan() || length < BARB + 1.0 {
         return;
     }
     let (ux, uy) = (dx / length * BARB * 0.7, dy / length * BARB * 0.7);
-    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), ink);
-    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), ink);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), stroke);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), stroke);
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ratatui::layout::Rect;
 
 use super::{
-    canvas::{Canvas, Ink, Layer},
+    canvas::{Canvas, Layer, Stroke},
     column::Column,
     sheet::Sheet,
 };
@@ -154,8 +154,8 @@ fn draw_chart(counts: &Counts, area: Rect, sheet: &mut Sheet) {
         return;
     }
     let (bars, width, height) = (counts.bars.len() as i32, canvas.width(), canvas.height());
-    let bar_ink = Ink::new(Layer::Wall, sheet.palette.heading());
-    let line_ink = Ink::new(Layer::Selected, sheet.palette.alarm());
+    let bar_ink = Stroke::new(Layer::Wall, sheet.palette.heading());
+    let line_ink = Stroke::new(Layer::Selected, sheet.palette.alarm());
     for x in 0..width {
         let bar = (x * bars / width) as usize;
         let top = (counts.bars[bar] as f64 / most * f64::from(height)).round() as i32;

@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::{
-    canvas::{Canvas, Ink, Layer},
+    canvas::{Canvas, Layer, Stroke},
     column::Column,
     sheet::Sheet,
 };
@@ -117,7 +117,7 @@ fn draw_chart(search: &Search, column: &mut Column) {
         };
         let style = if search.at == Some(index) { style.patch(sheet.palette.strong()) } else { style };
         let layer = if search.at == Some(index) { Layer::Selected } else { Layer::Contact };
-        canvas.sign(x as i32, y as i32, sign, Ink::new(layer, style));
+        canvas.sign(x as i32, y as i32, sign, Stroke::new(layer, style));
     }
     canvas.paint(area, sheet);
     draw_legend(search, [range, longest], area, sheet);
@@ -125,9 +125,9 @@ fn draw_chart(search: &Search, column: &mut Column) {
 
 /// The accepted degrees: two dotted lines.
 fn draw_band(canvas: &mut Canvas, lines: [f64; 2], sheet: &Sheet) {
-    let ink = Ink::new(Layer::Wall, sheet.palette.notice());
+    let stroke = Stroke::new(Layer::Wall, sheet.palette.notice());
     for (line, every) in lines.into_iter().zip([2, 4]) {
-        (0..canvas.width()).step_by(every).for_each(|x| canvas.dot(x, line.round() as i32, ink));
+        (0..canvas.width()).step_by(every).for_each(|x| canvas.dot(x, line.round() as i32, stroke));
     }
 }
 

@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 
 use super::{
     arrows::Quantity,
-    canvas::{Canvas, Ink, Layer},
+    canvas::{Canvas, Layer, Stroke},
     layout::Pane,
     overlays,
     pane::View,
@@ -53,14 +53,14 @@ pub(super) fn draw(screen: &Screen, pane: &Pane, sizes: Sizes, sheet: &mut Sheet
 fn draw_walls(view: &mut View, sheet: &Sheet) {
     let stage = &view.screen.snapshot.stage;
     for (corners, color) in &stage.walls {
-        let ink = Ink::new(Layer::Wall, sheet.palette.wall(*color));
+        let stroke = Stroke::new(Layer::Wall, sheet.palette.wall(*color));
         let dots = corners.map(|corner| view.project(corner));
         for i in 0..4 {
             let (from, to) = (dots[i], dots[(i + 1) % 4]);
-            shapes::line(&mut view.canvas, from, to, ink);
+            shapes::line(&mut view.canvas, from, to, stroke);
             // a wall that the view cuts goes on there
             for (x, y, side) in shapes::leaves(&view.canvas, from, to) {
-                view.canvas.sign(x, y, sheet.glyphs.on[side], ink);
+                view.canvas.sign(x, y, sheet.glyphs.on[side], stroke);
             }
         }
     }
@@ -69,12 +69,12 @@ fn draw_walls(view: &mut View, sheet: &Sheet) {
 /// Where the exact run's spheres are: dotted circles under all others, so that only what has strayed shows one.
 fn draw_ghost(view: &mut View, sheet: &Sheet) {
     let Some(ghost) = view.screen.comparison.and_then(|comparison| comparison.ghost) else { return };
-    let ink = Ink::new(Layer::Ghost, sheet.palette.ghost());
+    let stroke = Stroke::new(Layer::Ghost, sheet.palette.ghost());
     for (x, radius) in ghost.x.iter().zip(&view.screen.snapshot.stage.radii) {
         let (center, r) = (view.project(*x), radius * view.camera.scale);
         match r < TINY {
-            true => shapes::disc(&mut view.canvas, center, r, 1, ink),
-            false => shapes::dotted_circle(&mut view.canvas, center, r, ink),
+            true => shapes::disc(&mut view.canvas, center, r, 1, stroke),
+            false => shapes::dotted_circle(&mut view.canvas, center, r, stroke),
         }
     }
 }
@@ -129,10 +129,10 @@ fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
         if r >= HIDES {
             shapes::hide(&mut view.canvas, center, r);
         }
-        draw_sphere(&mut view.canvas, center, r, *state, Ink::new(layer, style));
+        draw_sphere(&mut view.canvas, center, r, *state, Stroke::new(layer, style));
         if selected {
-            let ink = Ink::new(layer, sheet.palette.strong());
-            shapes::circle(&mut view.canvas, center, r.max(TINY) + HALO, ink);
+            let stroke = Stroke::new(layer, sheet.palette.strong());
+            shapes::circle(&mut view.canvas, center, r.max(TINY) + HALO, stroke);
         }
     }
 }
@@ -152,25 +152,25 @@ fn far_to_near(view: &View) -> Vec<usize> {
 }
 
 /// Free: an outline. Resting: with a chord. Colliding: filled. Tiny: a dot or a few, a bar, a cross.
-fn draw_sphere(canvas: &mut Canvas, center: shapes::Dots, r: f64, state: State, ink: Ink) {
+fn draw_sphere(canvas: &mut Canvas, center: shapes::Dots, r: f64, state: State, stroke: Stroke) {
     if r < TINY {
-        shapes::disc(canvas, center, r, 1, ink);
+        shapes::disc(canvas, center, r, 1, stroke);
         match state {
             State::Free => {}
-            State::Rests => shapes::chord(canvas, center, TINY, ink),
+            State::Rests => shapes::chord(canvas, center, TINY, stroke),
             State::Collides => {
-                shapes::chord(canvas, center, TINY, ink);
-                shapes::line(canvas, (center.0, center.1 - 1.0), (center.0, center.1 + 1.0), ink);
+                shapes::chord(canvas, center, TINY, stroke);
+                shapes::line(canvas, (center.0, center.1 - 1.0), (center.0, center.1 + 1.0), stroke);
             }
         }
         return;
     }
-    shapes::circle(canvas, center, r, ink);
+    shapes::circle(canvas, center, r, stroke);
     match state {
         State::Free => {}
-        State::Rests => shapes::chord(canvas, center, r, ink),
-        State::Collides if r <= FILLED => shapes::disc(canvas, center, r, 1, ink),
-        State::Collides => shapes::disc(canvas, center, r, HATCH, ink),
+        State::Rests => shapes::chord(canvas, center, r, stroke),
+        State::Collides if r <= FILLED => shapes::disc(canvas, center, r, 1, stroke),
+        State::Collides => shapes::disc(canvas, center, r, HATCH, stroke),
     }
 }
 

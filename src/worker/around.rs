@@ -39,13 +39,13 @@ pub(super) struct Around {
     path: bool,
     sphere: Option<usize>,
     trail: VecDeque<(u64, Places)>,
-    search: Option<Box<Search>>,
+    search: Option<Box<LookAhead>>,
     found: Option<(Here, Arc<Ahead>)>,
 }
 
 /// A look ahead under way.
 #[derive(Debug)]
-struct Search {
+struct LookAhead {
     from: Here,
     run: Simulation,
     ahead: Ahead,
@@ -119,7 +119,7 @@ impl Around {
         let from = here(course);
         let search = match self.search.take().filter(|search| search.from == from && search.ahead.sphere == sphere) {
             Some(search) => search,
-            None => Box::new(Search::begin(course, sphere)),
+            None => Box::new(LookAhead::begin(course, sphere)),
         };
         let search = self.search.insert(search);
         let start = clock();
@@ -133,15 +133,15 @@ impl Around {
     }
 }
 
-impl Search {
-    fn begin(course: &Course, sphere: usize) -> Search {
+impl LookAhead {
+    fn begin(course: &Course, sphere: usize) -> LookAhead {
         let mut run = course.simulation().keyframe().run();
         run.record_events(true);
         run.explain(false);
         let t = run.time();
         let path = run.state().x.get(sphere).copied().into_iter().collect();
         let until = t + course.job().stage.duration;
-        Search { from: here(course), run, ahead: Ahead { sphere, path, contact: None, until: t }, until }
+        LookAhead { from: here(course), run, ahead: Ahead { sphere, path, contact: None, until: t }, until }
     }
 
     /// Goes on for a call; whether there is no more to be seen.

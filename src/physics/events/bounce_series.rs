@@ -50,17 +50,17 @@ pub(super) struct Moment {
 
 /// m impacts: eᵐ, τᵐ and Σ τ^{m−1−i} eⁱ over i < m.
 #[derive(Debug, Clone, Copy)]
-struct Impacts {
+struct ImpactFactors {
     e: f64,
     tangential: f64,
     sum: f64,
 }
 
-impl Impacts {
-    const NONE: Impacts = Impacts { e: 1.0, tangential: 1.0, sum: 0.0 };
+impl ImpactFactors {
+    const NONE: ImpactFactors = ImpactFactors { e: 1.0, tangential: 1.0, sum: 0.0 };
 
-    fn then(self, more: Impacts) -> Impacts {
-        Impacts {
+    fn then(self, more: ImpactFactors) -> ImpactFactors {
+        ImpactFactors {
             e: self.e * more.e,
             tangential: self.tangential * more.tangential,
             sum: self.sum * more.tangential + self.e * more.sum,
@@ -117,20 +117,20 @@ impl Bounces {
     }
 
     /// As many impacts as leave more than `bound` < 1 of the speed.
-    fn above(&self, bound: f64) -> Impacts {
+    fn above(&self, bound: f64) -> ImpactFactors {
         if bound <= 0.0 {
-            return Impacts { e: 0.0, tangential: f64::from(u8::from(self.tangential == 1.0)), sum: 0.0 };
+            return ImpactFactors { e: 0.0, tangential: f64::from(u8::from(self.tangential == 1.0)), sum: 0.0 };
         }
         // 1, 2, 4 … impacts: as many as leave more than the bound, at most 53 + 11 of them
-        let mut doubled = vec![Impacts { e: self.e, tangential: self.tangential, sum: 1.0 }];
+        let mut doubled = vec![ImpactFactors { e: self.e, tangential: self.tangential, sum: 1.0 }];
         while let Some(&last) = doubled.last().filter(|last| last.e * last.e > bound) {
             doubled.push(last.then(last));
         }
-        let more = |sofar: Impacts, &more: &Impacts| {
+        let more = |sofar: ImpactFactors, &more: &ImpactFactors| {
             let both = sofar.then(more);
             if both.e > bound { both } else { sofar }
         };
-        doubled.iter().rev().fold(Impacts::NONE, more)
+        doubled.iter().rev().fold(ImpactFactors::NONE, more)
     }
 }
 

@@ -18,14 +18,14 @@ const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.
 /// Small bounces of some contacts, each in a row so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Chatter {
-    rows: BTreeMap<Key, Row>,
+    rows: BTreeMap<Key, BounceRow>,
     /// What all spheres weigh, their own forces included, N.
     weight: f64,
 }
 
 /// A row of small bounces of one contact.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct BounceRow {
     count: u32,
     /// How many of them, the last ones, were lower than [`SUMMED_HOP`].
     tiny: u32,
@@ -38,9 +38,9 @@ struct Row {
     took: f64,
 }
 
-impl Row {
-    fn new(now: f64, approach_speed: f64) -> Row {
-        Row { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
+impl BounceRow {
+    fn new(now: f64, approach_speed: f64) -> BounceRow {
+        BounceRow { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
     }
 
     /// Whether it goes on for ever: without the help of weights that change v_n by `pull` (m/s²) no chain of impacts is so
@@ -95,7 +95,7 @@ impl Chatter {
             self.rows.remove(&contact.key);
             return false;
         }
-        let row = self.rows.entry(contact.key).or_insert(Row::new(now, approach_speed));
+        let row = self.rows.entry(contact.key).or_insert(BounceRow::new(now, approach_speed));
         row.given = MEMORY * row.given + (1.0 + keeps) * approach_speed;
         row.took = MEMORY * row.took + (now - row.last);
         row.count = row.count.saturating_add(1);

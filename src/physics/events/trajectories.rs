@@ -22,7 +22,7 @@ const BEGINNING: f64 = 1.0 / 256.0;
 
 /// A trajectory that was rewritten in this frame.
 #[derive(Debug, Clone, Copy)]
-struct Past {
+struct PastTrajectory {
     sphere: u32,
     /// When it was replaced, s.
     until: f64,
@@ -46,7 +46,7 @@ pub(crate) struct Trajectories {
     common: DVec3,
     /// Acceleration by sphere, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
     accelerations: Vec<DVec3>,
-    past: Vec<Past>,
+    past: Vec<PastTrajectory>,
 }
 
 /// The time that matters first after the start, s: a small share of what the first sphere takes to fall, or to go, by its
@@ -191,7 +191,7 @@ impl Trajectories {
         let (slot, acceleration) = (self.slot(i), self.acceleration(i));
         let line = &mut self.records[slot].trajectory;
         if line.t != t {
-            self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
+            self.past.push(PastTrajectory { sphere: i as u32, until: t, line: *line, acceleration });
             *line = line.advanced_to(acceleration, t);
         }
     }
@@ -202,8 +202,12 @@ impl Trajectories {
     pub(crate) fn redirect(&mut self, slot: usize, line: Trajectory) {
         let record = &mut self.records[slot];
         if record.trajectory.t != line.t {
-            let past =
-                Past { sphere: record.sphere, until: line.t, line: record.trajectory, acceleration: self.common };
+            let past = PastTrajectory {
+                sphere: record.sphere,
+                until: line.t,
+                line: record.trajectory,
+                acceleration: self.common,
+            };
             self.past.push(past);
         }
         (record.trajectory, record.motion_version) = (line, record.motion_version.wrapping_add(1));
@@ -276,7 +280,7 @@ impl Trajectories {
         if line.t == until {
             return;
         }
-        self.past.push(Past { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
+        self.past.push(PastTrajectory { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
     }
 
     /// Which contact a plan of the sphere at a slot means.

@@ -34,7 +34,7 @@ const MOST_PER_SPHERE: usize = 32;
 
 /// What the search does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stage {
+enum SearchStage {
     /// Compares spheres with the planes of the walls, from this one on.
     Walls(usize),
     /// Measures distances in cells, from this one on.
@@ -47,7 +47,7 @@ enum Stage {
 
 /// The candidates of one frame, found in slices.
 #[derive(Debug, Clone)]
-pub(super) struct Search {
+pub(super) struct Candidates {
     /// Pairs of bodies that may touch, sorted once the search is done.
     pub(super) found: Vec<Key>,
     /// Radius and the way a sphere may go in the frame, m, by sphere.
@@ -58,35 +58,43 @@ pub(super) struct Search {
     cells: Option<Cells>,
     /// Largest reach that the cells are made for, m.
     widest: f64,
-    stage: Stage,
+    stage: SearchStage,
 }
 
-impl Search {
-    pub(super) fn new(model: &Model) -> Search {
+impl Candidates {
+    pub(super) fn new(model: &Model) -> Candidates {
         let widest = SNUG * model.radii.iter().copied().fold(0.0, f64::max);
         let n = model.len();
         let cells = (model.pairs == PairSearch::Cells).then(|| Cells::new(&vec![widest; n]));
         let far = if cells.is_none() { (0..n).collect() } else { Vec::new() };
-        Search { found: Vec::new(), reach: vec![0.0; n], near: vec![0.0; n], far, cells, widest, stage: Stage::Done }
+        Candidates {
+            found: Vec::new(),
+            reach: vec![0.0; n],
+            near: vec![0.0; n],
+            far,
+            cells,
+            widest,
+            stage: SearchStage::Done,
+        }
     }
 
     /// A copy without memory: only how wide its cells are.
-    pub(super) fn kept(&self) -> Search {
-        Search {
+    pub(super) fn kept(&self) -> Candidates {
+        Candidates {
             found: Vec::new(),
             reach: Vec::new(),
             near: Vec::new(),
             far: Vec::new(),
             cells: None,
             widest: self.widest,
-            stage: Stage::Done,
+            stage: SearchStage::Done,
         }
     }
 
     /// Gives a kept copy its memory back.
     pub(super) fn wake(&mut self, model: &Model) {
         let widest = self.widest;
-        *self = Search { widest, ..Search::new(model) };
+        *self = Candidates { widest, ..Candidates::new(model) };
         if let Some(cells) = &mut self.cells {
             *cells = Cells::new(&vec![widest; model.len()]);
         }
@@ -111,7 +119,7 @@ impl Search {
 
     pub(super) fn restart(&mut self) {
         self.found.clear();
-        self.stage = Stage::Walls(0);
+        self.stage = SearchStage::Walls(0);
         if self.cells.is_some() {
             self.fit_cells();
         }
@@ -157,12 +165,12 @@ impl Search {
             return (true, 1);
         }
         let work = match self.stage {
-            Stage::Walls(from) => self.walls(model, x, from..x.len().min(from + CHUNK)),
-            Stage::Cells(from) => self.pairs_in_cells(from),
-            Stage::Far(from) => self.far_pairs(x, from),
-            Stage::Done => 0,
+            SearchStage::Walls(from) => self.walls(model, x, from..x.len().min(from + CHUNK)),
+            SearchStage::Cells(from) => self.pairs_in_cells(from),
+            SearchStage::Far(from) => self.far_pairs(x, from),
+            SearchStage::Done => 0,
         };
-        (self.stage == Stage::Done, work)
+        (self.stage == SearchStage::Done, work)
     }
 
     fn walls(&mut self, model: &Model, x: &[DVec3], range: Range<usize>) -> u64 {
@@ -179,18 +187,18 @@ impl Search {
         if self.overflows() {
             return (range.len() * model.faces.len()) as u64;
         }
-        self.stage = Stage::Walls(range.end);
+        self.stage = SearchStage::Walls(range.end);
         if range.end == x.len() {
             self.stage = self.after_walls(x);
         }
         1 + (range.len() * model.faces.len()) as u64
     }
 
-    fn after_walls(&mut self, x: &[DVec3]) -> Stage {
-        let Some(cells) = &mut self.cells else { return Stage::Far(0) };
+    fn after_walls(&mut self, x: &[DVec3]) -> SearchStage {
+        let Some(cells) = &mut self.cells else { return SearchStage::Far(0) };
         cells.open();
         cells.scatter(x, &self.near, 1.0, 0..x.len());
-        Stage::Cells(0)
+        SearchStage::Cells(0)
     }
 
     fn pairs_in_cells(&mut self, from: usize) -> u64 {
@@ -205,7 +213,7 @@ impl Search {
             }
         };
         let distances = cells.pairs_until(from..to, near, || full.get());
-        self.stage = if to == cells.len() { Stage::Far(0) } else { Stage::Cells(to) };
+        self.stage = if to == cells.len() { SearchStage::Far(0) } else { SearchStage::Cells(to) };
         distances + (to - from) as u64 / 4
     }
 
@@ -213,7 +221,7 @@ impl Search {
     fn far_pairs(&mut self, x: &[DVec3], from: usize) -> u64 {
         let Some(&i) = self.far.get(from) else {
             self.found.sort_unstable();
-            self.stage = Stage::Done;
+            self.stage = SearchStage::Done;
             return 1 + self.found.len() as u64;
         };
         let first = if self.cells.is_some() { 0 } else { i + 1 };
@@ -224,7 +232,7 @@ impl Search {
                 self.found.push((Kind::Pair, i.min(j), i.max(j)));
             }
         }
-        self.stage = Stage::Far(from + 1);
+        self.stage = SearchStage::Far(from + 1);
         (x.len() - first) as u64
     }
 }

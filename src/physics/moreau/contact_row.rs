@@ -92,7 +92,7 @@ pub(super) struct Allowance {
 
 /// The relative motion of two bodies from the start of a frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Path<'a> {
+pub(super) struct FramePath<'a> {
     pub(super) model: &'a Model,
     pub(super) key: Key,
     /// Centre of the sphere; of a pair from the second's to the first's, m.
@@ -103,15 +103,15 @@ pub(super) struct Path<'a> {
     pub(super) h: f64,
 }
 
-impl<'a> Path<'a> {
+impl<'a> FramePath<'a> {
     /// The path of the bodies of `key` with these positions (m) and velocities (m/s).
-    pub(super) fn of(model: &'a Model, key: Key, x: &[DVec3], u: &[DVec3], h: f64) -> Path<'a> {
+    pub(super) fn of(model: &'a Model, key: Key, x: &[DVec3], u: &[DVec3], h: f64) -> FramePath<'a> {
         let (kind, a, b) = key;
         let (from, velocity) = match kind {
             Kind::Wall => (x[a], u[a]),
             Kind::Pair => (x[a] - x[b], u[a] - u[b]),
         };
-        Path { model, key, from, velocity, h }
+        FramePath { model, key, from, velocity, h }
     }
 
     /// Sum of the radii, m.
@@ -333,7 +333,7 @@ impl Row {
     }
 
     /// The row of bodies that were held by `carried` (N s, 0 if by nothing) in the last frame.
-    pub(super) fn new(path: &Path, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
+    pub(super) fn new(path: &FramePath, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
         let law = &path.model.law;
         let e = if path.key.0 == Kind::Wall { law.wall_restitution } else { law.restitution };
         let gravity = pull(path.model, path.key) * terms.h;

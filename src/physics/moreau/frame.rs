@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::contact_row::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
-use super::run::{Carried, Moreau, Stage};
+use super::contact_row::{Allowance, FramePath, Meeting, Row, Speeds, TOUCHING, Terms};
+use super::run::{Carried, FrameStage, Moreau};
 use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::frame_contact::FrameContact;
 use crate::physics::free_flight::{Flight, with_flight};
@@ -29,30 +29,30 @@ impl Moreau {
     /// Why there can be no such frame.
     pub(super) fn go_on(&mut self, model: &Model, log: &mut Log) -> Result<u64, Stall> {
         match self.stage {
-            Stage::Between => self.open(model),
-            Stage::Search { round } => {
+            FrameStage::Between => self.open(model),
+            FrameStage::Search { round } => {
                 let (done, work) = self.search.go_on(model, &self.end.x);
                 log.tallies.evaluations += work;
                 if self.search.overflows() {
-                    self.stage = Stage::Between;
+                    self.stage = FrameStage::Between;
                     return Err(self.crowded(model));
                 }
                 if done {
-                    self.stage = Stage::Meet { round, from: 0, known: self.rows.len() };
+                    self.stage = FrameStage::Meet { round, from: 0, known: self.rows.len() };
                 }
                 Ok(work)
             }
-            Stage::Meet { round, from, known } => {
+            FrameStage::Meet { round, from, known } => {
                 let to = self.search.found.len().min(from + CHUNK);
                 self.meet(model, round, from..to, known);
                 log.tallies.evaluations += (to - from) as u64;
-                self.stage = Stage::Meet { round, from: to, known };
+                self.stage = FrameStage::Meet { round, from: to, known };
                 if to == self.search.found.len() {
                     self.end_round(model, log, round, known)?;
                 }
                 Ok(2 * (to - from) as u64)
             }
-            Stage::Solve { round } => {
+            FrameStage::Solve { round } => {
                 let (done, work) = self.solver.go_on(model, &self.free, &self.end.v, &self.rows);
                 if done {
                     self.solver.read_impulses(&mut self.rows);
@@ -81,7 +81,7 @@ impl Moreau {
         let (free, v) = (&self.free, &self.end.v);
         let speed = |i: usize| free[i].length_squared().max(v[i].length_squared()).sqrt();
         self.search.begin((0..model.len()).map(|i| reach(model, i, speed(i), h)));
-        self.stage = Stage::Search { round: 0 };
+        self.stage = FrameStage::Search { round: 0 };
         Ok(model.len() as u64)
     }
 
@@ -110,7 +110,7 @@ impl Moreau {
 
     /// Makes a row of two bodies if they meet.
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
-        let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+        let path = FramePath::of(model, key, &self.end.x, &self.solution, terms.h);
         let near = terms.near(model, key);
         let at_once = (round == 0).then_some(near);
         let found = match key.0 {
@@ -126,7 +126,7 @@ impl Moreau {
         let meets = meeting.time < f64::INFINITY && closing * terms.h >= meeting.way;
         // What is reached only because something was struck in this frame collides at the speed it has by then; not what
         // it is pulled into by what accelerates it, before all that holds it is known.
-        let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
+        let before = -meeting.normal.dot(FramePath::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
         let pulled = terms.pulled(model, key) + model.law.rest_speed;
         let approach = if round == 0 || closing <= pulled { before } else { before.max(closing) };
         // What has parted since, by more than others may push it together again, is held no longer.
@@ -138,7 +138,7 @@ impl Moreau {
     /// Whether what held a sphere in the last frame, and is no farther than `near` (m) from it still, is a wall in the plane
     /// in which it meets this one: a sphere that goes on from tile to tile strikes the next one no more than the first one
     /// over again.
-    fn was_held_level_with(&self, path: &Path, meeting: &Meeting, near: f64) -> bool {
+    fn was_held_level_with(&self, path: &FramePath, meeting: &Meeting, near: f64) -> bool {
         let (kind, a, _) = path.key;
         let holds = |face: &Face| wall::touch(face, path.from, path.size()).gap <= near;
         let mut walls = self.walls_that_held(a).map(|wall| &path.model.faces[wall]);
@@ -231,7 +231,7 @@ impl Moreau {
         self.keep_first_strikes(model, known);
         self.rows.sort_unstable_by_key(|row| row.key);
         self.solver.begin(model, &self.free, &self.rows);
-        self.stage = Stage::Solve { round };
+        self.stage = FrameStage::Solve { round };
         Ok(())
     }
 
@@ -253,7 +253,7 @@ impl Moreau {
         }
         self.note_sunk();
         let known = self.rows.len();
-        self.stage = if farther { Stage::Search { round } } else { Stage::Meet { round, from: 0, known } };
+        self.stage = if farther { FrameStage::Search { round } } else { FrameStage::Meet { round, from: 0, known } };
     }
 
     /// How far the solver leaves each sphere short of the planes of the walls that hold it.
@@ -270,7 +270,7 @@ impl Moreau {
 
     /// Closes the frame: v⁺ = u, x⁺ = x + h u.
     fn close(&mut self, model: &Model, log: &mut Log, converged: bool) -> Result<(), Stall> {
-        self.stage = Stage::Between;
+        self.stage = FrameStage::Between;
         let h = self.settings.dt;
         if !converged {
             self.hold_back(model);
@@ -297,7 +297,7 @@ impl Moreau {
     fn hold_back(&mut self, model: &Model) {
         let terms = Terms::of(model, &self.settings);
         for &key in self.search.found.iter().take_while(|key| key.0 == Kind::Wall) {
-            let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+            let path = FramePath::of(model, key, &self.end.x, &self.solution, terms.h);
             let left = terms.still(model, key);
             let entered = path.wall_meeting(None, Allowance { left, more: left });
             if entered.is_some() {
@@ -318,7 +318,7 @@ impl Moreau {
             let contact = self.contact(model, row);
             log.tallies.deepest_degree = log.tallies.deepest_degree.max(contact.degree);
             // A contact that carries nothing rests on as long as it touches: others may carry its load for a while.
-            let apart = -contact.degree * Path::of(model, row.key, &self.end.x, &self.end.v, self.step).size();
+            let apart = -contact.degree * FramePath::of(model, row.key, &self.end.x, &self.end.v, self.step).size();
             if row.impulse > 0.0 || apart <= TOUCHING * model.radii[row.key.1] + row.slack * self.step {
                 log.contacts.push(contact);
             }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::candidates::{Search, most_candidates};
+use super::candidates::{Candidates, most_candidates};
 use super::contact_row::Row;
 use super::solver::Solver;
 use crate::physics::contact::{Class, Contact, Key, Kind};
@@ -33,20 +33,20 @@ pub(crate) struct Moreau {
     pub(super) solution: Vec<DVec3>,
     /// What held in the last frame, sorted: all that the next one needs beside x and v.
     pub(super) carried: Vec<Carried>,
-    pub(super) search: Search,
+    pub(super) search: Candidates,
     /// Rows of the frame in progress, sorted by key.
     pub(super) rows: Vec<Row>,
     /// How deep the frame's rows leave each sphere in the walls that hold it, m.
     pub(super) sunk: Vec<f64>,
     pub(super) solver: Solver,
-    pub(super) stage: Stage,
+    pub(super) stage: FrameStage,
     /// Length of the last frame, s.
     pub(super) step: f64,
 }
 
 /// What the frame in progress does next; rounds count how often rows have been looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum FrameStage {
     /// No frame is in progress.
     Between,
     /// Looks for bodies that may touch.
@@ -79,11 +79,11 @@ impl Engine for Moreau {
             solution: vec![DVec3::ZERO; model.len()],
             end: state,
             carried: Vec::new(),
-            search: Search::new(model),
+            search: Candidates::new(model),
             rows: Vec::new(),
             sunk: vec![0.0; model.len()],
             solver: Solver::new(model),
-            stage: Stage::Between,
+            stage: FrameStage::Between,
             step: 0.0,
         };
         moreau.load(model, log);
@@ -91,7 +91,7 @@ impl Engine for Moreau {
     }
 
     fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
-        if matches!(until, Until::Time(t) if self.end.t >= t && self.stage == Stage::Between) {
+        if matches!(until, Until::Time(t) if self.end.t >= t && self.stage == FrameStage::Between) {
             return Progress::Reached;
         }
         let mut spent = 0;
@@ -104,7 +104,7 @@ impl Engine for Moreau {
                 Until::Frame => true,
                 Until::Time(t) => self.end.t >= t,
             };
-            if self.stage == Stage::Between && reached {
+            if self.stage == FrameStage::Between && reached {
                 return Progress::Reached;
             }
         }
@@ -112,7 +112,7 @@ impl Engine for Moreau {
     }
 
     fn retune(&mut self, _: &Model, settings: Settings) {
-        self.stage = Stage::Between;
+        self.stage = FrameStage::Between;
         self.settings = settings;
     }
 
@@ -175,7 +175,7 @@ impl Engine for Moreau {
             rows: Vec::new(),
             sunk: Vec::new(),
             solver: self.solver.kept(),
-            stage: Stage::Between,
+            stage: FrameStage::Between,
             step: self.step,
         }
     }

@@ -82,7 +82,7 @@ struct Gain {
 
 /// What the solver does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stage {
+enum SolverStage {
     /// Sweeps, the number made so far.
     Sweep(usize),
     /// Solved, or given up.
@@ -100,7 +100,7 @@ pub(super) struct Solver {
     gains: Vec<Gain>,
     /// Whether all masses are alike enough for sweeping.
     alike: bool,
-    stage: Stage,
+    stage: SolverStage,
     /// Whether every row is complementary to its slack.
     pub(super) converged: bool,
     /// Rows solved so far, one at a time.
@@ -122,7 +122,7 @@ impl Solver {
             resorted: 0,
             gains: Vec::new(),
             alike,
-            stage: Stage::Done,
+            stage: SolverStage::Done,
             converged: true,
             solved: 0,
         }
@@ -159,7 +159,7 @@ impl Solver {
     /// what sweeping leaves undone would make a sphere feel seams.
     fn set_out(&mut self, model: &Model, free: &[DVec3]) {
         self.resorted = 0;
-        self.stage = Stage::Sweep(0);
+        self.stage = SolverStage::Sweep(0);
         if self.any_alone() {
             self.solve_directly(model, free, MOST_DIRECT_ROWS, |island, _| island.bodies.len() == 1);
         }
@@ -183,20 +183,20 @@ impl Solver {
 
     /// Goes on, with the velocities of the frame's start, m/s: whether it is done, and the work that took.
     pub(super) fn go_on(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) -> (bool, u64) {
-        let Stage::Sweep(sweeps) = self.stage else { return (true, 0) };
+        let SolverStage::Sweep(sweeps) = self.stage else { return (true, 0) };
         let calm = self.sweep(true) & self.sweep(false);
-        self.stage = Stage::Sweep(sweeps + 2);
+        self.stage = SolverStage::Sweep(sweeps + 2);
         let count = self.lines.len();
         self.solved += 2 * count as u64;
         if (calm || sweeps % SWEEPS_PER_LOOK == 0) && self.is_solved() {
-            self.stage = Stage::Done;
+            self.stage = SolverStage::Done;
         } else if sweeps * count >= PATIENCE && sweeps >= LEAST_SWEEPS {
             self.give_up(model, free, sweeps);
         }
-        if self.stage == Stage::Done {
+        if self.stage == SolverStage::Done {
             self.finish(model, free, v, rows);
         }
-        (self.stage == Stage::Done, 2 * count as u64)
+        (self.stage == SolverStage::Done, 2 * count as u64)
     }
 
     /// Sweeping has taken long: small islands are solved directly, the others swept on for a while.
@@ -207,7 +207,7 @@ impl Solver {
             self.solve_directly(model, free, rows, |_, _| true);
         }
         if self.is_solved() || sweeps >= MOST_SWEEPS || self.lines.iter().all(|line| line.settled) {
-            self.stage = Stage::Done;
+            self.stage = SolverStage::Done;
         }
     }
 

@@ -1,6 +1,6 @@
 //! One frame: opened, ended by the dt or by the search for the collision time, closed with its responses.
 
-use super::run::{Paper, Search, Stage};
+use super::run::{Paper, TimeSearch, TrialStage};
 use super::trial_step::carry_velocities;
 use crate::physics::contact::Probe;
 use crate::physics::log::Log;
@@ -18,7 +18,7 @@ impl Paper {
             None => self.open(model),
         };
         let work = self.compute(model, step);
-        if self.stage == Stage::Complete && self.residue == 0.0 {
+        if self.stage == TrialStage::Complete && self.residue == 0.0 {
             log.tallies.evaluations += self.finder.evaluations;
             if self.judge(step, log) {
                 self.close(model, log);
@@ -35,7 +35,7 @@ impl Paper {
         std::mem::swap(&mut self.start, &mut self.end);
         std::mem::swap(&mut self.kicks, &mut self.next);
         carry_velocities(model, &self.next, &self.start, &mut self.end);
-        self.search = Search::Whole;
+        self.search = TimeSearch::Whole;
         self.probes.clear();
         self.attempt(self.settings.dt);
         self.settings.dt
@@ -47,10 +47,10 @@ impl Paper {
         let deepest = found.iter().map(|o| o.degree).fold(f64::NEG_INFINITY, f64::max);
         let too_deep = found.iter().any(|o| o.degree > self.limit(o));
         let (apart, deep) = match (self.search, too_deep) {
-            (Search::Whole, false) | (Search::Last, _) => return true,
-            (Search::Whole, true) => (0.0, step),
-            (Search::Between { deep, .. }, false) => (step, deep),
-            (Search::Between { apart, .. }, true) => (apart, step),
+            (TimeSearch::Whole, false) | (TimeSearch::Last, _) => return true,
+            (TimeSearch::Whole, true) => (0.0, step),
+            (TimeSearch::Between { deep, .. }, false) => (step, deep),
+            (TimeSearch::Between { apart, .. }, true) => (apart, step),
         };
         self.probes.push(Probe { step, degree: deepest });
         log.tallies.probes += 1;
@@ -59,10 +59,10 @@ impl Paper {
         }
         let (t, middle) = (self.start.t, 0.5 * (apart + deep));
         if t + middle == t + apart || t + middle == t + deep {
-            self.search = Search::Last;
+            self.search = TimeSearch::Last;
             self.attempt(deep);
         } else {
-            self.search = Search::Between { apart, deep };
+            self.search = TimeSearch::Between { apart, deep };
             self.attempt(middle);
         }
         false

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::run::{Paper, Search, Stage};
+use super::run::{Paper, TimeSearch, TrialStage};
 use super::trial_step::{carry_velocities, fly};
 use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::log::Log;
@@ -50,9 +50,9 @@ impl Paper {
             self.step = leg.dt;
         }
         if touched {
-            self.search = Search::Whole;
+            self.search = TimeSearch::Whole;
             self.probes.clear();
-            self.stage = Stage::Complete;
+            self.stage = TrialStage::Complete;
             self.trial = Some(leg.dt);
         }
         (frames + u64::from(touched)) * cost

@@ -1,7 +1,7 @@
 //! What ends a run that cannot go on: a state that is no longer finite, and time that stands still.
 
 use super::run::Paper;
-use super::watchdog::Watch;
+use super::watchdog::Watchdog;
 use crate::physics::contact::{Class, Contact, Kind};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
@@ -20,12 +20,12 @@ impl Paper {
             return self.quarantine(model);
         }
         if self.watch.stuck {
-            self.watch = Watch::at(self.end.t);
+            self.watch = Watchdog::at(self.end.t);
             return Some(Stall::step_too_small(self.end.t, self.settings.dt));
         }
         if self.trial.is_none() && self.watch.cut >= PATIENCE + model.len() as u64 {
             let stalled = self.end.t - self.watch.since < self.watch.owed;
-            self.watch = Watch::at(self.end.t);
+            self.watch = Watchdog::at(self.end.t);
             return stalled.then(|| self.shrinking(log));
         }
         None

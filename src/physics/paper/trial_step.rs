@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::Paper;
 use super::kicks::{Kick, Kicks};
-use super::run::Stage;
+use super::run::TrialStage;
 use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::model::{Model, Pull};
 use crate::physics::overlap::CHUNK;
@@ -66,7 +66,7 @@ impl Paper {
     /// Sets out to try a step, s.
     pub(super) fn attempt(&mut self, step: f64) {
         self.trial = Some(step);
-        self.stage = Stage::Fly(0);
+        self.stage = TrialStage::Fly(0);
         self.residue = 0.0;
         self.end.t = self.start.t + step;
         self.finder.begin();
@@ -75,24 +75,24 @@ impl Paper {
     /// Computes the next slice of the trial state; the work that took.
     pub(super) fn compute(&mut self, model: &Model, step: f64) -> u64 {
         match self.stage {
-            Stage::Fly(from) => {
+            TrialStage::Fly(from) => {
                 let range = from..model.len().min(from + CHUNK);
                 let work = (range.len() * (1 + model.faces.len())) as u64;
-                self.stage = if range.end < model.len() { Stage::Fly(range.end) } else { Stage::Meet };
+                self.stage = if range.end < model.len() { TrialStage::Fly(range.end) } else { TrialStage::Meet };
                 let (start, end) = (&self.start, &mut self.end);
                 self.residue += with_flight!(model, flight => fly(flight, start, end, range.clone(), step));
                 self.residue += kick(model, self.kicks.of_spheres(&range), start, end, step);
                 self.finder.walls(model, &start.x, &end.x, range);
                 work
             }
-            Stage::Meet => {
+            TrialStage::Meet => {
                 let (complete, work) = self.finder.pairs(model, &self.end.x);
                 if complete {
-                    self.stage = Stage::Complete;
+                    self.stage = TrialStage::Complete;
                 }
                 work
             }
-            Stage::Complete => 0,
+            TrialStage::Complete => 0,
         }
     }
 }

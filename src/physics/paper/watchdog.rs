@@ -13,7 +13,7 @@ const QUIET_PACE: f64 = 1e-2;
 
 /// The watchdog's memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Watch {
+pub(super) struct Watchdog {
     /// When the present count began, s.
     pub(super) since: f64,
     /// Frames cut short by a search since then.
@@ -24,10 +24,10 @@ pub(super) struct Watch {
     pub(super) stuck: bool,
 }
 
-impl Watch {
+impl Watchdog {
     /// Nothing counted yet at this time, s.
-    pub(super) fn at(time: f64) -> Watch {
-        Watch { since: time, cut: 0, owed: 0.0, stuck: false }
+    pub(super) fn at(time: f64) -> Watchdog {
+        Watchdog { since: time, cut: 0, owed: 0.0, stuck: false }
     }
 
     /// What it has counted, as a row of a run's transient.
@@ -36,9 +36,9 @@ impl Watch {
     }
 
     /// The count that a row tells of.
-    pub(super) fn of_row(row: DVec3) -> Watch {
+    pub(super) fn of_row(row: DVec3) -> Watchdog {
         // a file may say any number, and counting must be able to go on from it
-        Watch { since: row.x, cut: (row.y as u64).min(1 << 52), owed: row.z, stuck: false }
+        Watchdog { since: row.x, cut: (row.y as u64).min(1 << 52), owed: row.z, stuck: false }
     }
 
     /// Counts a frame that brought this much time, s, and was or was not cut short by a search.

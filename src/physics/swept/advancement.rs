@@ -11,7 +11,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::separation::{Gap, Pair, Separation, Wall};
+use super::separation::{Gap, PairSeparation, Separation, WallSeparation};
 use crate::physics::contact::Probe;
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::rounding::{CLOSING, HOP};
@@ -57,11 +57,11 @@ impl Detector for ConservativeAdvancement {
     }
 
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
-        self.search(&Wall { path, r, face }, span)
+        self.search(&WallSeparation { path, r, face }, span)
     }
 
     fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
-        let pair = Pair::new(a, b, reach);
+        let pair = PairSeparation::new(a, b, reach);
         if pair.parts_for_good() {
             self.count();
             return None;

@@ -36,13 +36,13 @@ pub(super) trait Separation {
 }
 
 /// A sphere of radius `r` (m) and a wall.
-pub(super) struct Wall<'a> {
+pub(super) struct WallSeparation<'a> {
     pub(super) path: &'a Path,
     pub(super) r: f64,
     pub(super) face: &'a Face,
 }
 
-impl Separation for Wall<'_> {
+impl Separation for WallSeparation<'_> {
     fn at(&self, s: f64) -> Gap {
         let touch = touch(self.face, self.path.at(s), self.r);
         let v_n = normal_velocity(self.path.velocity(s), DVec3::ZERO, touch.normal);
@@ -74,16 +74,16 @@ impl Separation for Wall<'_> {
 }
 
 /// Two spheres whose radii sum to `reach` (m).
-pub(super) struct Pair<'a> {
+pub(super) struct PairSeparation<'a> {
     paths: [&'a Path; 2],
     /// That of the first centre seen from the second.
     path: Path,
     reach: f64,
 }
 
-impl<'a> Pair<'a> {
-    pub(super) fn new(a: &'a Path, b: &'a Path, reach: f64) -> Pair<'a> {
-        Pair { paths: [a, b], path: a.relative_to(b), reach }
+impl<'a> PairSeparation<'a> {
+    pub(super) fn new(a: &'a Path, b: &'a Path, reach: f64) -> PairSeparation<'a> {
+        PairSeparation { paths: [a, b], path: a.relative_to(b), reach }
     }
 
     /// Whether two spheres that part go on doing so: without relative acceleration, distances are convex in time. The
@@ -93,7 +93,7 @@ impl<'a> Pair<'a> {
     }
 }
 
-impl Separation for Pair<'_> {
+impl Separation for PairSeparation<'_> {
     fn at(&self, s: f64) -> Gap {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let distance = x.length();
