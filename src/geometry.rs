@@ -125,7 +125,7 @@ pub struct Outline {
     center: DVec3,
     /// Components of the axes (m², or m for a cross product with a side), of any length.
     axes: [[f64; 8]; 3],
-    /// Their absolute values.
+    /// Absolute values of the components of the axes.
     sizes: [[f64; 8]; 3],
     /// Half the width of the parallelogram along each axis, m times the axis.
     reaches: [f64; 8],

@@ -28,14 +28,14 @@ pub struct Intersection {
 /// Two bodies that touch or overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// Which two.
+    /// The two bodies that overlap.
     pub key: Key,
-    /// How deep, dimensionless.
+    /// Intersection degree, dimensionless.
     pub degree: f64,
 }
 
-/// A sphere of radius `r` (m) at `x` against a wall. The side it is on is decided by its centre's way from `from` (m),
-/// the frame's start: where that way leads through the face, the degree goes on growing beyond 1 past the plane, so
+/// How a sphere of radius `r` (m) at `x` (m) touches a wall. The side it is on is decided by its centre's way from `from`
+/// (m), the frame's start: where that way leads through the face, the degree goes on growing beyond 1 past the plane, so
 /// that no search accepts the far side.
 pub fn wall_touch(face: &Face, from: DVec3, x: DVec3, r: f64) -> Intersection {
     let height = face.height(x);
@@ -66,7 +66,7 @@ pub fn touching(r: f64, at: f64) -> f64 {
     (1e-12 * r).max(8.0 * f64::EPSILON * at)
 }
 
-/// Spheres at `a` and `b` (m) of radii `r_a` and `r_b` (m).
+/// How two spheres at `a` and `b` (m) of radii `r_a` and `r_b` (m) touch.
 pub fn pair_touch(a: DVec3, b: DVec3, r_a: f64, r_b: f64) -> Intersection {
     let (arm, reach) = (a - b, r_a + r_b);
     let distance = arm.length();
@@ -156,7 +156,7 @@ enum FinderStage {
 /// Spheres or cells worked on between two looks at the budget.
 pub const CHUNK: usize = 4096;
 
-/// Why there are cells.
+/// Why a finder that looks into its cells has them.
 const CELLS: &str = "a finder for a model whose pairs are found by cells has cells";
 
 /// By how much radii grow for the coarse tests at load: more than [`touching`] allows up to 5e8 radii from the origin.
@@ -224,7 +224,7 @@ impl Finder {
         }
     }
 
-    /// A sphere near the plane of a wall.
+    /// Measures sphere `i` near the plane of wall `w`, and keeps the overlap if there is one.
     #[cold]
     #[inline(never)]
     fn meet(&mut self, model: &Model, from: DVec3, x: DVec3, (i, w): (usize, usize)) {

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Path {
-    /// Where at t = 0, m.
+    /// Position at t = 0, m.
     pub x: DVec3,
     /// Velocity at t = 0, m/s.
     pub v: DVec3,
@@ -47,7 +47,7 @@ impl Path {
         way * (1.0 - 1e-9) > (self.v.length() + 0.5 * self.a.length() * time) * time
     }
 
-    /// Bounds of a coordinate along `axis` (any vector) over [from, to] (s).
+    /// Least and largest coordinate along `axis` (any vector) over [from, to] (s), m times the length of the axis.
     pub(super) fn reach(&self, axis: DVec3, from: f64, to: f64) -> (f64, f64) {
         let (v, a) = (axis.dot(self.v), axis.dot(self.a));
         let start = axis.dot(self.at(from));

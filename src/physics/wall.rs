@@ -8,7 +8,7 @@ use crate::geometry::Parallelogram;
 /// A wall with what its tests need: unit normal and the dual vectors of its edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
-    /// Centre, edges, m.
+    /// Centre and edges, m.
     pub shape: Parallelogram,
     /// Unit normal s1 × s2 / |s1 × s2|; contacts flip it to the sphere's side.
     pub normal: DVec3,
@@ -37,7 +37,7 @@ impl Face {
         (p - self.shape.center).dot(self.normal)
     }
 
-    /// What rounding of its corners is relative to, m: no coordinate of theirs is larger.
+    /// What rounding of the corners is relative to, m: no coordinate of a corner is larger.
     pub fn size(&self) -> f64 {
         let Parallelogram { center, s1, s2 } = self.shape;
         (center.abs() + 0.5 * (s1.abs() + s2.abs())).max_element()
@@ -65,7 +65,7 @@ impl Face {
 /// runs from corner k to corner k + 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// Its inside.
+    /// The inside of the parallelogram.
     Face,
     /// An edge without its ends.
     Edge(u8),
@@ -76,11 +76,11 @@ pub enum Part {
 /// A sphere against a wall: where, along which normal, how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// What is touched.
+    /// The part of the wall that is touched.
     pub part: Part,
-    /// The closest point, m.
+    /// The point of the wall that is closest to the centre, m.
     pub point: DVec3,
-    /// Unit normal from it to the centre.
+    /// Unit normal from the closest point to the centre.
     pub normal: DVec3,
     /// Distance of the centre from the closest point − r, m.
     pub gap: f64,

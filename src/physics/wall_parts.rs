@@ -12,6 +12,7 @@ use crate::roots::quadratic_fall;
 /// A plane beyond which another part takes over: `normal`·(x − `at`) is the room left, m.
 #[derive(Clone, Copy)]
 struct Border {
+    /// A point of the plane, m.
     at: DVec3,
     /// Unit vector into the part.
     inward: DVec3,

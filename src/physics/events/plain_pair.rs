@@ -16,12 +16,13 @@ use crate::physics::state::Stall;
 
 /// Two spheres that touch now, the one of the lower index first.
 struct PlainPair {
-    /// Where their records are.
+    /// The slots of their records.
     slots: [usize; 2],
     /// Their trajectories, at the present.
     lines: [Trajectory; 2],
     /// When the motion of either last changed, s.
     since: f64,
+    /// How the two touch.
     contact: ContactState,
 }
 
@@ -98,7 +99,7 @@ impl Mechanics {
             && !impacts.chatter.may_be_endless(&self.trajectories, &pair.contact, pair.since)
     }
 
-    /// Both get their impulse; returns 1/m₁ + 1/m₂, 1/kg.
+    /// Gives both spheres their impulse; returns 1/m₁ + 1/m₂, 1/kg.
     #[inline(always)]
     fn exchange(&mut self, model: &Model, pair: &PlainPair) -> f64 {
         let (slots, [one, two]) = (pair.slots, pair.lines);

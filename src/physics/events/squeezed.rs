@@ -16,11 +16,11 @@ use crate::physics::overlap::touching;
 use crate::physics::support::{Row, solve};
 use crate::physics::wall::touch;
 
-/// From so many events on without the clock advancing it is asked whether a sphere is squeezed, at powers of two.
+/// Events without the clock advancing from which on it is asked whether a sphere is squeezed, at powers of two.
 const DOUBTFUL: u64 = 4;
 
 impl Mechanics {
-    /// Whether a contact can't ever be left: then all contacts that hold the sphere so rest from now on.
+    /// Whether a contact can never be left: then all contacts that hold the sphere so rest from now on.
     pub(super) fn is_squeezed(&mut self, model: &Model, contact: &ContactState) -> bool {
         let events = self.impacts.instant.events;
         let (kind, i, _) = contact.key;

@@ -8,10 +8,10 @@ use super::method::Description;
 use super::model::Method;
 use root_detector::RootDetector;
 
-/// The method at work.
+/// A run by `exact`.
 pub(super) type Exact = Resumable<RootDetector>;
 
-/// What the method is.
+/// What `exact` is.
 pub(super) const DESCRIPTION: Description = Description {
     method: Method::Exact,
     summary: "event-driven: parabolas between contacts whose times are roots of polynomials; no time step",

@@ -17,13 +17,13 @@ use crate::physics::wall::Face;
 /// Spheres or cells worked on between two looks at the budget.
 const CHUNK: usize = 4096;
 
-/// Reach over the widest radius that the first cells are made for.
+/// Reach over the widest radius that the first cells are made for, dimensionless.
 const SNUG: f64 = 1.25;
 
-/// By how much cells grow when too many reach beyond them.
+/// Factor by which cells grow when too many spheres reach beyond them.
 const GROWTH: f64 = 1.5;
 
-/// Leaves room for the rounding of (u, v).
+/// Widening of a wall that leaves room for the rounding of (u, v), dimensionless.
 const BESIDE: f64 = 1.0 + 1e-6;
 
 /// Candidates that a frame may have beside those of each sphere: what memory small scenes may take, some 30 MB.
@@ -41,7 +41,7 @@ enum SearchStage {
     Cells(usize),
     /// Compares the far-reaching spheres (all, without cells) with all spheres, from this one on.
     Far(usize),
-    /// All are found.
+    /// Nothing: all candidates are found.
     Done,
 }
 
@@ -50,10 +50,11 @@ enum SearchStage {
 pub(super) struct Candidates {
     /// Pairs of bodies that may touch, sorted once the search is done.
     pub(super) found: Vec<Key>,
-    /// Radius and the way a sphere may go in the frame, m, by sphere.
+    /// Radius plus the way that a sphere may go in the frame, m, by sphere.
     reach: Vec<f64>,
-    /// The reach as the cells see it; no number for those compared with all.
+    /// Reach as the cells see it, m, by sphere; NaN for spheres that are compared with all others.
     near: Vec<f64>,
+    /// Spheres that are compared with all others.
     far: Vec<usize>,
     cells: Option<Cells>,
     /// Largest reach that the cells are made for, m.
@@ -78,7 +79,7 @@ impl Candidates {
         }
     }
 
-    /// A copy without memory: only how wide its cells are.
+    /// A copy without scratch memory, which keeps only how wide the cells are.
     pub(super) fn kept(&self) -> Candidates {
         Candidates {
             found: Vec::new(),
@@ -159,7 +160,7 @@ impl Candidates {
         self.found.len() > most_candidates(self.reach.len())
     }
 
-    /// Goes on: whether all are found, and the work that took.
+    /// Goes on with the search among spheres at `x` (m): whether all candidates are found, and the work that took.
     pub(super) fn go_on(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
         if self.overflows() {
             return (true, 1);
@@ -217,7 +218,8 @@ impl Candidates {
         distances + (to - from) as u64 / 4
     }
 
-    /// One far-reaching sphere with all spheres; pairs of two such are met once, from the lower index.
+    /// Compares one far-reaching sphere with all spheres; pairs of two such are met once, from the lower index. The work
+    /// that took.
     fn far_pairs(&mut self, x: &[DVec3], from: usize) -> u64 {
         let Some(&i) = self.far.get(from) else {
             self.found.sort_unstable();

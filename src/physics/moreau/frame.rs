@@ -135,9 +135,9 @@ impl Moreau {
         self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
     }
 
-    /// Whether what held a sphere in the last frame, and is no farther than `near` (m) from it still, is a wall in the plane
-    /// in which it meets this one: a sphere that goes on from tile to tile strikes the next one no more than the first one
-    /// over again.
+    /// Whether what held a sphere in the last frame, and is no farther than `near` (m) from it still, is a wall in the
+    /// plane in which it meets this one: a sphere that goes on from tile to tile strikes the next one no more than the
+    /// first one over again.
     fn was_held_level_with(&self, path: &FramePath, meeting: &Meeting, near: f64) -> bool {
         let (kind, a, _) = path.key;
         let holds = |face: &Face| wall::touch(face, path.from, path.size()).gap <= near;
@@ -222,7 +222,8 @@ impl Moreau {
         }
     }
 
-    /// All candidates have been looked at: new rows are solved, with the others; without any the frame is complete.
+    /// Ends a round in which all candidates have been looked at: new rows are solved, with the others; without any the
+    /// frame is complete.
     fn end_round(&mut self, model: &Model, log: &mut Log, round: usize, known: usize) -> Result<(), Stall> {
         let complete = self.rows.len() == known;
         if complete || round >= MOST_ROUNDS {
@@ -235,7 +236,7 @@ impl Moreau {
         Ok(())
     }
 
-    /// The rows are solved: spheres that move farther than was looked for are searched for again.
+    /// Sets out to search again, once the rows are solved, for the spheres that move farther than was looked for.
     fn look_again(&mut self, model: &Model, round: usize) {
         let h = self.settings.dt;
         let mut farther = false;
@@ -256,7 +257,7 @@ impl Moreau {
         self.stage = if farther { FrameStage::Search { round } } else { FrameStage::Meet { round, from: 0, known } };
     }
 
-    /// How far the solver leaves each sphere short of the planes of the walls that hold it.
+    /// Notes how far the solver leaves each sphere short of the planes of the walls that hold it, m.
     fn note_sunk(&mut self) {
         self.sunk.fill(0.0);
         for row in self.rows.iter().take_while(|row| row.key.0 == Kind::Wall) {
@@ -306,7 +307,8 @@ impl Moreau {
         }
     }
 
-    /// Contacts and events of the frame that has just ended: what collided, what rests, what does not rest any more.
+    /// Tells the contacts and events of the frame that has just ended: what collided, what rests, what does not rest any
+    /// more.
     fn tell(&mut self, model: &Model, log: &mut Log) {
         log.contacts.clear();
         log.probes.clear();

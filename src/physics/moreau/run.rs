@@ -19,7 +19,7 @@ use crate::physics::state::{Stall, StallKind, State, runaway};
 /// A contact that held in the last frame, and its impulse, N s.
 pub(super) type Carried = (Key, f64);
 
-/// The method at work.
+/// A run by `moreau`.
 #[derive(Debug, Clone)]
 pub(crate) struct Moreau {
     pub(super) settings: Settings,
@@ -58,9 +58,9 @@ pub(super) enum FrameStage {
     Meet {
         /// How often rows have been looked for.
         round: usize,
-        /// The next candidate.
+        /// Index of the next candidate.
         from: usize,
-        /// Rows that there were before this round.
+        /// Number of rows before this round.
         known: usize,
     },
     /// Solves the rows.
@@ -128,7 +128,8 @@ impl Engine for Moreau {
         self.step
     }
 
-    /// Within a frame velocities are those of its end, and positions lie on the straight line between its ends.
+    /// The state at `t` (s) within the last frame: velocities are those of its end, and positions lie on the straight line
+    /// between its ends.
     fn at(&self, _: &Model, t: f64) -> State {
         if t >= self.end.t {
             return self.end.clone();
@@ -143,7 +144,8 @@ impl Engine for Moreau {
         state
     }
 
-    /// Not by sphere but by contact that held: (sphere, other sphere, Λ), or (sphere, −1 − wall, Λ).
+    /// A row for each contact that held, not for each sphere: (sphere, other sphere, Λ), or (sphere, −1 − wall, Λ), Λ in N
+    /// s.
     fn transient(&self, _: &Model) -> Vec<DVec3> {
         let other = |kind: Kind, b: usize| if kind == Kind::Wall { -1.0 - b as f64 } else { b as f64 };
         self.carried.iter().map(|&((kind, a, b), impulse)| DVec3::new(a as f64, other(kind, b), impulse)).collect()
@@ -162,7 +164,7 @@ impl Engine for Moreau {
         self.end.clone()
     }
 
-    /// The frame's end and what held there; the start is a frame's inside, all else scratch.
+    /// A copy that keeps the frame's end and what held there; the start is a frame's inside, all else scratch.
     fn keep(&self) -> Moreau {
         Moreau {
             settings: self.settings,
@@ -194,8 +196,8 @@ impl Engine for Moreau {
 }
 
 impl Moreau {
-    /// What a state of [`Engine::at`] lacks of the energy of the frame's end, J: its velocities are those of the end, while its
-    /// spheres have not yet fallen so far.
+    /// What a state of [`Engine::at`] lacks of the energy of the frame's end, J: its velocities are those of the end, while
+    /// its spheres have not yet fallen so far.
     pub(crate) fn hidden_energy_at(&self, model: &Model, state: &State) -> f64 {
         if state.t <= self.start.t || state.t >= self.end.t {
             return 0.0;
@@ -205,7 +207,7 @@ impl Moreau {
         -state.v.iter().enumerate().map(work).sum::<f64>()
     }
 
-    /// What touches at the start and does not approach rests, if something presses it; what approaches is left to the
+    /// Lets rest what touches at the start without approaching, if something presses it; what approaches is left to the
     /// first frame.
     pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
         let mut finder = Finder::new(model);

@@ -46,7 +46,7 @@ impl Engine for Paper {
         let mut spent = 0;
         while spent < work {
             if self.trial.is_none() && self.is_calm(log) {
-                spent += self.cruise(model, log, goal, work - spent);
+                spent += self.complete_free_frames(model, log, goal, work - spent);
             } else {
                 spent += self.go_on(model, log);
             }
@@ -126,7 +126,8 @@ impl Engine for Paper {
         state
     }
 
-    /// The frame's end, what acts next, and the overlaps there; the start is a frame's inside, all else scratch.
+    /// A copy that keeps the frame's end, what acts next, and the overlaps there; the start is a frame's inside, all else
+    /// scratch.
     fn keep(&self) -> Paper {
         Paper {
             settings: self.settings,

@@ -7,7 +7,7 @@ use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::overlap::Overlap;
 
-/// What rounding may add to the degree of a contact that must not sink further.
+/// What rounding may add to the degree of a contact that must not sink further, dimensionless.
 const ROUNDING: f64 = 1e-12;
 
 impl Paper {
@@ -27,7 +27,7 @@ impl Paper {
         work
     }
 
-    /// Opens a frame: what was the end is the start, and what the last responses gave acts now.
+    /// Opens a frame: what was the end is the start, and what the last responses gave acts now. The first step to try, s.
     fn open(&mut self, model: &Model) -> f64 {
         let limit = self.accepted();
         self.allowed.clear();
@@ -68,7 +68,7 @@ impl Paper {
         false
     }
 
-    /// How deep an overlap may be at the end of this frame.
+    /// Largest degree that an overlap may have at the end of this frame, dimensionless.
     fn limit(&self, overlap: &Overlap) -> f64 {
         let limit = self.accepted();
         if overlap.degree <= limit {
@@ -91,7 +91,7 @@ impl Paper {
         self.watch.note(self.end.t - self.start.t, self.step < self.settings.dt, self.settings.dt, log);
     }
 
-    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`](super::free_frames).
+    /// Whether nothing is left of any contact: such frames go by in [`Paper::complete_free_frames`](super::free_frames).
     pub(super) fn is_calm(&self, log: &Log) -> bool {
         self.finder.found.is_empty() && self.next.list().is_empty() && log.resting.is_empty()
     }

@@ -16,7 +16,7 @@ pub(in crate::physics) const SLACK: f64 = 1e-4;
 pub(super) enum TimeSearch {
     /// The whole step is being tried.
     Whole,
-    /// The collision lies between `apart` and `deep`.
+    /// The collision lies between the steps `apart` and `deep`, s.
     Between { apart: f64, deep: f64 },
     /// No time lies between the two any more: the later one is taken as it is.
     Last,
@@ -29,11 +29,11 @@ pub(super) enum TrialStage {
     Fly(usize),
     /// Pairs are searched.
     Meet,
-    /// All of it.
+    /// The trial state is complete.
     Complete,
 }
 
-/// The method at work.
+/// A run by `paper`.
 #[derive(Debug, Clone)]
 pub(crate) struct Paper {
     pub(super) settings: Settings,
@@ -53,7 +53,7 @@ pub(crate) struct Paper {
     pub(super) trial: Option<f64>,
     /// How much of the trial state has been computed.
     pub(super) stage: TrialStage,
-    /// 0 as long as every position of the trial state is finite.
+    /// 0 as long as every position of the trial state is finite; else NaN.
     pub(super) residue: f64,
     pub(super) search: TimeSearch,
     /// Trial steps of the frame in progress.
@@ -64,12 +64,12 @@ pub(crate) struct Paper {
 }
 
 impl Paper {
-    /// The largest degree a frame may end with, for contacts without an allowance of their own.
+    /// The largest intersection degree a frame may end with, dimensionless, for contacts without an allowance of their own.
     pub(super) fn accepted(&self) -> f64 {
         self.settings.tolerance.min(LARGEST_TOLERANCE) + SLACK
     }
 
-    /// What follows the end of the last frame.
+    /// The kicks that follow the end of the last frame.
     pub(super) fn pending(&self) -> &Kicks {
         if self.trial.is_some() { &self.kicks } else { &self.next }
     }

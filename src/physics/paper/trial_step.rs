@@ -14,8 +14,8 @@ use crate::physics::model::{Model, Pull};
 use crate::physics::overlap::CHUNK;
 use crate::physics::state::State;
 
-/// `Forward(h)` of these spheres: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit Euler). Returns
-/// 0 if all new positions are finite, else NaN. In straight flight `end` holds the velocities already.
+/// Moves these spheres by `Forward(h)`, h in s: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit
+/// Euler). Returns 0 if all new positions are finite, else NaN. In straight flight `end` holds the velocities already.
 #[inline(always)]
 pub(super) fn fly<F: Flight>(flight: F, start: &State, end: &mut State, range: Range<usize>, h: f64) -> f64 {
     let (x0, v0) = (&start.x[range.clone()], &start.v[range.clone()]);
@@ -46,8 +46,8 @@ fn kick(model: &Model, kicks: &[Kick], start: &State, end: &mut State, h: f64) -
     residue
 }
 
-/// In straight flight: brings the velocities of these kicked spheres up to date in the state that comes next, all other
-/// velocities being the same in both.
+/// Brings the velocities of the kicked spheres up to date in the state that comes next, in straight flight: all other
+/// velocities are equal in both.
 pub(super) fn carry_velocities(model: &Model, kicks: &Kicks, now: &State, next: &mut State) {
     if model.pull == Pull::None {
         for kick in kicks.list() {
@@ -56,7 +56,7 @@ pub(super) fn carry_velocities(model: &Model, kicks: &Kicks, now: &State, next: 
     }
 }
 
-/// `Forward(h)` of all spheres.
+/// Moves all spheres by `Forward(h)`, h in s.
 pub(super) fn forward(model: &Model, kicks: &Kicks, start: &State, end: &mut State, h: f64) {
     with_flight!(model, flight => fly(flight, start, end, 0..model.len(), h));
     kick(model, kicks.list(), start, end, h);

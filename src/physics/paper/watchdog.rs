@@ -18,19 +18,19 @@ pub(super) struct Watchdog {
     pub(super) since: f64,
     /// Frames cut short by a search since then.
     pub(super) cut: u64,
-    /// Time they should have brought at least, s.
+    /// Time that the frames cut short should have brought at least, s.
     pub(super) owed: f64,
-    /// Whether a frame brought no time at all.
+    /// Whether some frame brought no time at all.
     pub(super) stuck: bool,
 }
 
 impl Watchdog {
-    /// Nothing counted yet at this time, s.
+    /// A memory that begins to count at `time`, s.
     pub(super) fn at(time: f64) -> Watchdog {
         Watchdog { since: time, cut: 0, owed: 0.0, stuck: false }
     }
 
-    /// What it has counted, as a row of a run's transient.
+    /// The count as a row of a run's transient.
     pub(super) fn row(&self) -> DVec3 {
         DVec3::new(self.since, self.cut as f64, self.owed)
     }
@@ -41,7 +41,7 @@ impl Watchdog {
         Watchdog { since: row.x, cut: (row.y as u64).min(1 << 52), owed: row.z, stuck: false }
     }
 
-    /// Counts a frame that brought this much time, s, and was or was not cut short by a search.
+    /// Counts a frame of `elapsed` (s), of at most `dt` (s), that was or was not `cut` short by a search.
     pub(super) fn note(&mut self, elapsed: f64, cut: bool, dt: f64, log: &Log) {
         self.stuck |= elapsed <= 0.0;
         if cut {

@@ -10,7 +10,7 @@ use crate::physics::wall_parts::part_ahead;
 /// Two bodies at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
-    /// m; negative: overlapping.
+    /// Gap, m; negative: overlap.
     pub(super) gap: f64,
     /// Normal velocity, m/s, in the response's own expression.
     pub(super) v_n: f64,
@@ -19,11 +19,11 @@ pub(super) struct Gap {
     pub(super) a_n: f64,
 }
 
-/// Two bodies on their ways.
+/// Two bodies that move freely from now on.
 pub(super) trait Separation {
-    /// How they are `s` seconds from now.
+    /// Gap, normal velocity and acceleration `s` seconds from now.
     fn at(&self, s: f64) -> Gap;
-    /// How fast v_n grows just from then on, m/s², curvature included.
+    /// Rate at which v_n grows just from `s` seconds from now on, m/s², curvature included.
     fn acceleration(&self, s: f64) -> f64;
     /// What the degree is measured by, m: r, or r₁ + r₂.
     fn reach(&self) -> f64;
@@ -31,7 +31,7 @@ pub(super) trait Separation {
     fn size(&self) -> f64;
     /// Largest acceleration along any normal, m/s².
     fn max_acceleration(&self) -> f64;
-    /// Size of the velocities that v_n is a difference of, m/s.
+    /// Size of the velocities that v_n is a difference of `s` seconds from now, m/s.
     fn speed(&self, s: f64) -> f64;
 }
 
@@ -76,7 +76,7 @@ impl Separation for WallSeparation<'_> {
 /// Two spheres whose radii sum to `reach` (m).
 pub(super) struct PairSeparation<'a> {
     paths: [&'a Path; 2],
-    /// That of the first centre seen from the second.
+    /// Path of the first centre relative to the second.
     path: Path,
     reach: f64,
 }
