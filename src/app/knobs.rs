@@ -58,7 +58,7 @@ fn edge(what: &str, value: f64, factor: f64, example: &str) -> String {
     format!("The keys take {what} no {end} than {value:e}; exact values: :{example}")
 }
 
-/// What to say of a knob that was turned and that the method does not have, if that is so.
+/// A sentence on a knob that was turned and that the method does not have; none if no such knob was.
 pub(super) fn in_vain(before: Settings, after: Settings) -> Option<String> {
     let (knobs, method) = (knobs(after.method), after.method.name());
     if before.tolerance != after.tolerance && knobs.tolerance == Effect::Nothing {

@@ -15,14 +15,17 @@ const FEW: usize = 24;
 /// Spheres sorted into cells.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Crowd {
+    /// Lowest corner of the grid, m.
     low: DVec3,
     /// Cells per metre, by axis.
     per_metre: DVec3,
     counts: [usize; 3],
     /// Where each cell's spheres begin in `members`.
     begins: Vec<u32>,
+    /// The spheres that are not large, cell by cell.
     members: Vec<u32>,
     cells: Vec<u32>,
+    /// The large spheres.
     large: Vec<usize>,
     /// Radius of the largest sphere that is not large, m.
     small: f64,

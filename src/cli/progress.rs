@@ -11,7 +11,7 @@ pub(super) const STEPS: f64 = 1000.0;
 /// Time between two pictures of the progress bar: it counts seconds.
 const TICK: Duration = Duration::from_millis(250);
 
-/// On stderr; indicatif draws nothing where that is no terminal.
+/// A progress bar on stderr; indicatif draws nothing where that is no terminal.
 pub(super) fn progress_bar(wanted: usize, what: &str) -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !io::stderr().is_terminal() {

@@ -65,7 +65,7 @@ fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failu
     Ok(Some(Table::new::<R>(format, Output::open(target)?)?))
 }
 
-/// On stderr; indicatif draws nothing where that is no terminal.
+/// A progress bar on stderr; indicatif draws nothing where that is no terminal.
 fn progress_bar() -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !std::io::stderr().is_terminal() {
@@ -119,7 +119,7 @@ impl Recorder<'_> {
         Ok(None)
     }
 
-    /// The last frame may reach beyond the end of the run: what happens there belongs to no row.
+    /// Writes the events up to the end of the run: the last frame may reach beyond it, and what happens there belongs to no row.
     fn write_events(&mut self) -> Result<(), Failure> {
         let events = self.simulation.take_events();
         self.jury.judge(&self.simulation, &events);
@@ -176,7 +176,7 @@ fn unsolved(tallies: &Tallies) -> Option<String> {
     })
 }
 
-/// 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows (s).
+/// The times of states, s: 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows.
 fn sample_times(until: f64, every: Option<f64>) -> impl Iterator<Item = f64> {
     let every = every.unwrap_or(until);
     (0_u64..).map(move |k| k as f64 * every).take_while(move |time| *time < until).chain(std::iter::once(until))

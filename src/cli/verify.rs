@@ -80,7 +80,7 @@ fn text(index: usize, found: &Result<Vec<Row>, Trouble>) -> String {
     }
 }
 
-/// Rows, and those that fail. A check without a result is a row that fails.
+/// Numbers of rows and of those that fail. A check without a result is a row that fails.
 #[derive(Debug, Default)]
 struct Tally {
     rows: usize,
@@ -110,7 +110,7 @@ impl Tally {
     }
 }
 
-/// On stderr; indicatif draws nothing where that is no terminal.
+/// A progress bar on stderr; indicatif draws nothing where that is no terminal.
 fn progress_bar() -> ProgressBar {
     let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     if dumb || !io::stderr().is_terminal() {

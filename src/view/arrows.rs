@@ -15,7 +15,8 @@ use crate::snapshot::{Class, Contact, Kind, Snapshot};
 /// Part of the view's width that the longest arrow takes at most.
 const LONGEST: f64 = 0.2;
 
-/// Cells of a view that there are for each contact's arrows: with fewer they are drawn over each other, and none can be read.
+/// Cells of a view that there are for each contact's arrows: with fewer they are drawn over each other, and none can be
+/// read.
 const CELLS: usize = 24;
 
 /// Length of an arrow head's barbs, dots; shorter arrows have none.
@@ -31,7 +32,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Whether it is drawn.
+    /// Whether the quantity is drawn.
     pub(super) fn is_shown(self, view: &View) -> bool {
         let overlays = view.screen.view_settings.overlays;
         match self {
@@ -40,7 +41,7 @@ impl Quantity {
         }
     }
 
-    /// How much of it a contact has.
+    /// The quantity of a contact, N s or N; none if it has none.
     fn of(self, snapshot: &Snapshot, contact: &Contact) -> Option<f64> {
         let amount = match self {
             Quantity::Impulse => (contact.class == Class::Collide).then_some(contact.impulse),
@@ -49,8 +50,8 @@ impl Quantity {
         amount.filter(|amount| amount.is_finite() && *amount > 0.0)
     }
 
-    /// The contacts whose arrows are drawn, and how the label names the choice, if not all are: where they would lie over each
-    /// other, those of the selected sphere and of what it touches, or else the largest.
+    /// The contacts whose arrows are drawn, and how the label names the choice, if not all are: where they would lie over
+    /// each other, those of the selected sphere and of what it touches, or else the largest.
     fn drawn(self, view: &View) -> (Vec<usize>, String) {
         let snapshot = view.screen.snapshot;
         let amount = |index: usize| self.of(snapshot, &snapshot.contacts[index]);
@@ -115,7 +116,7 @@ fn bodies(contact: &Contact) -> [Option<usize>; 2] {
     [Some(contact.a), (contact.kind == Kind::Pair).then_some(contact.b)]
 }
 
-/// Arrows of so many metres along a contact's normal, outside the spheres that it pushes.
+/// Draws arrows of `length` (m) along a contact's normal, outside the spheres that it pushes.
 pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, stroke: Stroke) {
     let snapshot = view.screen.snapshot;
     let other = (contact.kind == Kind::Pair).then_some((contact.b, -contact.normal));
@@ -126,7 +127,7 @@ pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, strok
     }
 }
 
-/// A line from one point of the world to another, with two barbs at 45° to it.
+/// Draws a line from one point of the world (m) to another, with two barbs at 45° to it.
 pub(super) fn draw_arrow(view: &mut View, from: DVec3, to: DVec3, stroke: Stroke) {
     let (tail, tip) = (view.project(from), view.project(to));
     if tail == tip {

@@ -35,7 +35,7 @@ pub(super) enum Layer {
 }
 
 impl Layer {
-    /// Whether it is of the run's own spheres, which hide each other.
+    /// Whether the layer is of the run's own spheres, which hide each other.
     fn is_body(self) -> bool {
         matches!(self, Layer::Sphere | Layer::Contact | Layer::Selected)
     }
@@ -44,7 +44,7 @@ impl Layer {
 /// Colour, attributes and layer of what is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Stroke {
-    /// Which layer it is on.
+    /// The layer that is drawn on.
     pub(super) layer: Layer,
     color: Color,
     modifier: Modifier,
@@ -98,12 +98,12 @@ impl Canvas {
         Canvas { columns, cells: vec![Cell::default(); columns * rows], width, height }
     }
 
-    /// Dots across.
+    /// Width, dots.
     pub(super) fn width(&self) -> i32 {
         self.width
     }
 
-    /// Dots down.
+    /// Height, dots.
     pub(super) fn height(&self) -> i32 {
         self.height
     }

@@ -49,9 +49,9 @@ pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// The simulated time that the velocity arrows stand for, s: an arrow goes from the sphere's rim to where that point
-/// would be after so long without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of the width, so
-/// that arrows of different frames can be compared; `None` if nothing moves.
+/// The simulated time that the velocity arrows stand for, s: an arrow goes from the sphere's rim to where that point would
+/// be after so long without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of
+/// the width, so that arrows of different frames can be compared; `None` if nothing moves.
 pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
     let squares = view.screen.snapshot.v.iter().map(|v| v.length_squared()).filter(|square| square.is_finite());
     let fastest = squares.fold(0.0, f64::max).sqrt();
@@ -69,7 +69,8 @@ fn draw_velocities(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// The normal of every contact, from the far side of each sphere that it pushes: under the sphere's own dots it would vanish.
+/// Draws the normal of every contact, from the far side of each sphere that it pushes: under the sphere's own dots it would
+/// vanish.
 fn draw_normals(view: &mut View, sheet: &Sheet) {
     let stroke = Stroke::new(Layer::Arrow, sheet.palette.normal());
     for contact in &view.screen.snapshot.contacts {
@@ -77,7 +78,7 @@ fn draw_normals(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// The contact whose card is open: its normal, and the wall's number beside its point.
+/// Draws the contact whose card is open: its normal, and the wall's number beside its point.
 fn draw_chosen(view: &mut View, sheet: &Sheet) {
     let chosen = view.screen.view_settings.card.and_then(|card| card::chosen(view.screen, card));
     let Some(contact) = chosen.map(|index| view.screen.snapshot.contacts[index]) else { return };
@@ -93,7 +94,7 @@ fn draw_chosen(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// A sign at each contact point: a cross for an impact, a bullet for a rest, a small dot for what leaves.
+/// Draws a sign at each contact point: a cross for an impact, a bullet for a rest, a small dot for what leaves.
 fn draw_contacts(view: &mut View, sheet: &Sheet) {
     let [collides, rests, leaves] = sheet.glyphs.contact;
     for contact in &view.screen.snapshot.contacts {
@@ -108,7 +109,7 @@ fn draw_contacts(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// A sphere's number: in it if it is large enough, else to its upper right. The selected one's has a `#`.
+/// Draws a sphere's number: in it if it is large enough, else to its upper right. The selected one's has a `#`.
 fn draw_number(view: &mut View, sphere: usize, taken: &mut [bool], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { return };

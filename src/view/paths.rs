@@ -9,10 +9,10 @@ use super::{
     sheet::Sheet,
 };
 
-/// With so many spheres all paths are drawn where none is selected; more would be a carpet.
+/// Most spheres of which all paths are drawn where none is selected; more would be a carpet.
 const FEW: usize = 20;
 
-/// Dots from one of a predicted path to the next.
+/// Distance between two signs of a predicted path, dots.
 const APART: f64 = 3.0;
 
 /// Draws the paths that are wanted, under the spheres.
@@ -31,7 +31,7 @@ pub(super) fn draw(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// A line through the centres in the last frames.
+/// Draws a line through the centres in the last frames.
 fn draw_trail(view: &mut View, sphere: usize, sheet: &Sheet) {
     let color = view.screen.snapshot.stage.colors.get(sphere).copied().flatten();
     let stroke = Stroke::new(Layer::Ghost, sheet.palette.sphere(sphere, color).patch(sheet.palette.faint()));
@@ -42,7 +42,7 @@ fn draw_trail(view: &mut View, sphere: usize, sheet: &Sheet) {
     }
 }
 
-/// Dots at equal distances along a path that is still to come.
+/// Draws dots at equal distances along a path (m) that is still to come.
 fn draw_ahead(view: &mut View, path: &[DVec3], stroke: Stroke) {
     let dots: Vec<shapes::Dots> = path.iter().map(|x| view.project(*x)).collect();
     let reach = f64::from(view.canvas.width() + view.canvas.height());

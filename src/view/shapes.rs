@@ -8,8 +8,8 @@ use super::canvas::{Canvas, Stroke};
 /// A point in dots: the centre of dot (i, j) is (i, j).
 pub(super) type Dots = (f64, f64);
 
-/// A straight line from `a` to `b`: one dot in each column, or each row if it is steep, as far as it is on the canvas.
-/// Nothing if a coordinate is not finite.
+/// Draws a straight line from `a` to `b`: one dot in each column, or each row if it is steep, as far as it is on the
+/// canvas. Nothing if a coordinate is not finite.
 pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, stroke: Stroke) {
     let Some((a, b)) = clip(canvas, a, b) else { return };
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
@@ -25,8 +25,8 @@ pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, stroke: Stroke) {
     }
 }
 
-/// Where a line that is partly on the canvas goes on beyond its border: the last dot there, and whether it goes on to the left, the
-/// right, up or down.
+/// Where a line that is partly on the canvas goes on beyond its border: the last dot there, and whether it goes on to the
+/// left, the right, up or down.
 pub(super) fn leaves(canvas: &Canvas, a: Dots, b: Dots) -> Vec<(i32, i32, usize)> {
     let Some((from, to)) = clip(canvas, a, b) else { return Vec::new() };
     let (right, bottom) = (canvas.width() - 1, canvas.height() - 1);
@@ -40,7 +40,7 @@ pub(super) fn leaves(canvas: &Canvas, a: Dots, b: Dots) -> Vec<(i32, i32, usize)
     at.collect()
 }
 
-/// From the dot nearest to one coordinate to the dot nearest to another.
+/// The dots from the one nearest to `a` to the one nearest to `b`.
 fn between(a: f64, b: f64) -> std::ops::RangeInclusive<i32> {
     a.min(b).round() as i32..=a.max(b).round() as i32
 }
@@ -67,18 +67,18 @@ fn clip(canvas: &Canvas, a: Dots, b: Dots) -> Option<(Dots, Dots)> {
     (enter <= leave).then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
 
-/// The circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it, in
-/// its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
+/// Draws the circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it,
+/// in its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
 pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, stroke: Stroke) {
     rim(canvas, c, r, |_, _| true, stroke);
 }
 
-/// A circle of radius `r` dots about `c` with every other dot left out.
+/// Draws a circle of radius `r` dots about `c` with every other dot left out.
 pub(super) fn dotted_circle(canvas: &mut Canvas, c: Dots, r: f64, stroke: Stroke) {
     rim(canvas, c, r, |x, y| (x ^ y) & 1 == 0, stroke);
 }
 
-/// The dots of a circle that are wanted.
+/// Draws the dots of a circle that are wanted.
 fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, stroke: Stroke) {
     if !meets(canvas, c, r) {
         return;
@@ -103,8 +103,8 @@ fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, 
     }
 }
 
-/// The disc of radius `r` dots about `c`: every `every`-th row of the dots whose centres are in it, and at least the dot
-/// nearest to `c`.
+/// Draws the disc of radius `r` dots about `c`: every `every`-th row of the dots whose centres are in it, and at least the
+/// dot nearest to `c`.
 pub(super) fn disc(canvas: &mut Canvas, c: Dots, r: f64, every: i32, stroke: Stroke) {
     if !meets(canvas, c, r) {
         return;
@@ -128,14 +128,14 @@ pub(super) fn hide(canvas: &mut Canvas, c: Dots, r: f64) {
     }
 }
 
-/// The horizontal chord through the centre of the circle of radius `r` dots about `c`.
+/// Draws the horizontal chord through the centre of the circle of radius `r` dots about `c`.
 pub(super) fn chord(canvas: &mut Canvas, c: Dots, r: f64, stroke: Stroke) {
     if meets(canvas, c, r) {
         bar(canvas, (c.0 - r, c.0 + r), c.1.round() as i32, stroke);
     }
 }
 
-/// The dots of a row whose centres are within `ends`.
+/// Draws the dots of a row whose centres are within `ends`.
 fn bar(canvas: &mut Canvas, ends: (f64, f64), y: i32, stroke: Stroke) {
     for x in range(ends.0, ends.1, canvas.width()) {
         canvas.dot(x, y, stroke);
@@ -164,7 +164,7 @@ fn range(from: f64, to: f64, size: i32) -> std::ops::Range<i32> {
     first + i32::from(f64::from(first) < from)..end
 }
 
-/// The whole number nearest to `x`, of two the one farther from 0: as `round`, without a call.
+/// The whole number nearest to `x`, of two the one farther from 0: what `round` gives, without a call.
 fn nearest(x: f64) -> i32 {
     let whole = x as i32;
     let rest = x - f64::from(whole);
