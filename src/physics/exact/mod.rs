@@ -1,5 +1,7 @@
 //! The event-driven method: no time step. Between events every sphere moves on a parabola; the next event is computed,
 //! not searched for by stepping. The yardstick of the other methods.
+//!
+//! All of it is the engine of `events` but for `root_detector`: contact times as roots of polynomials.
 
 pub(super) mod root_detector;
 
