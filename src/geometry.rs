@@ -30,7 +30,7 @@ pub enum Feature {
 pub struct Closest {
     /// The closest point, m.
     pub point: DVec3,
-    /// From the closest point to the given one, m; its length is the distance.
+    /// The way from the closest point to the given one, m; its length is the distance.
     pub offset: DVec3,
     /// What the closest point belongs to.
     pub feature: Feature,

@@ -50,7 +50,7 @@ impl Board {
         Board { corner, s1, s2, basis: [along, across], length, height, lean, normal: along.cross(across) }
     }
 
-    /// From the wall's first corner to `p`, m.
+    /// The way from the wall's first corner to `p`, m.
     fn arm(&self, p: DVec3) -> DVec3 {
         p - self.corner
     }
@@ -67,7 +67,7 @@ impl Board {
         [(self.basis[0].dot(arm) - second * self.lean) / self.length, second]
     }
 
-    /// From the closest point of the wall to `p` (m), m.
+    /// The way from the closest point of the wall to `p` (m), m.
     pub(super) fn offset(&self, p: DVec3) -> DVec3 {
         if self.shares(p).iter().all(|share| (0.0..=1.0).contains(share)) {
             // no edge is nearer; one beside the foot is as far, to rounding, from up to 1e-8 of the distance aside

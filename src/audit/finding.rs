@@ -70,7 +70,7 @@ impl Fault {
 /// Which bodies a finding is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bodies {
-    /// All of them.
+    /// All bodies.
     All,
     /// A sphere.
     Sphere(usize),

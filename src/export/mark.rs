@@ -27,7 +27,7 @@ pub struct MarkRow {
     pub compared: f64,
     /// Largest position error, m.
     pub error: Option<f64>,
-    /// When, s.
+    /// Time of the largest position error, s.
     pub error_time: Option<f64>,
     /// Sphere with the largest position error.
     pub error_sphere: Option<usize>,
@@ -35,7 +35,7 @@ pub struct MarkRow {
     pub interpolation_error: f64,
     /// `missing`, `late`, `early` or `extra`: the first impact that is wrong.
     pub wrong_impact: Option<String>,
-    /// When, s.
+    /// Time of the first wrong impact, s.
     pub wrong_impact_time: Option<f64>,
     /// By how much the first wrong impact is late, s; below 0: early.
     pub wrong_impact_delay: Option<f64>,
@@ -49,7 +49,7 @@ pub struct MarkRow {
     pub impacts_wanted: Option<usize>,
     /// Deepest intersection degree in any row, dimensionless.
     pub deepest_degree: f64,
-    /// When, s.
+    /// Time of the deepest overlap, s.
     pub deepest_time: Option<f64>,
     /// Energy at the first row, J.
     pub energy_start: Option<f64>,

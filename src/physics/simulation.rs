@@ -280,7 +280,7 @@ impl Simulation {
         self.settings
     }
 
-    /// From the next frame on, solve with other settings. A run that stalled tries again.
+    /// Solves with other settings from the next frame on. A run that stalled tries again.
     pub fn set_settings(&mut self, settings: Settings) {
         let Simulation { model, engine, log, .. } = self;
         if settings.method == self.settings.method {

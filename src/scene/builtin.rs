@@ -16,7 +16,7 @@ macro_rules! embedded {
     };
 }
 
-/// All of `scenes/`, the paper's five first. A test refuses a file that is missing here.
+/// Every scene of `scenes/`, the paper's five first. A test refuses a file that is missing here.
 pub const ALL: &[Builtin] = embedded![
     "paper-0",
     "paper-1",

@@ -265,7 +265,7 @@ fn cells(bounds: Bounds, count: usize, r: f64) -> (f64, [usize; 3]) {
     }
 }
 
-/// From where to where spheres of radius `r` reach that have their centres in each of `count` cells between two borders,
+/// The stretches that spheres of radius `r` (m) reach that have their centres in each of `count` cells between two borders,
 /// m. The last cell has all that is left.
 fn ends([min, max]: [f64; 2], cell: f64, count: usize, r: f64) -> Vec<[f64; 2]> {
     // A hair's breadth more than the cells: rounding may put a centre on either side of their border.

@@ -146,7 +146,7 @@ pub struct Settings {
 pub struct Wall {
     /// Centre and edges, m; edges are finite, non-zero and not parallel.
     pub shape: Parallelogram,
-    /// Its colour, if the scene names one.
+    /// Colour of the wall, if the scene names one.
     pub color: Option<Color>,
 }
 
@@ -163,7 +163,7 @@ pub struct Sphere {
     pub radius: f64,
     /// Constant force beside gravity, N.
     pub force: DVec3,
-    /// Its colour, if the scene names one.
+    /// Colour of the sphere, if the scene names one.
     pub color: Option<Color>,
     /// Name of the sphere, if the scene gives one; no control characters.
     pub name: Option<String>,

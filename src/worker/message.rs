@@ -46,7 +46,7 @@ pub enum Command {
     GotoEvent {
         /// Number of the event since t = 0, from 1.
         number: u64,
-        /// Its time, s.
+        /// Time of the event, s.
         time: f64,
     },
     /// Keep where all spheres were in the last frames, or not; and look ahead, with nothing else to do, for the next
@@ -141,7 +141,7 @@ pub enum Said {
         stop: Stop,
         /// What came.
         met: Met,
-        /// When, s.
+        /// Time of the frame in which it came, s.
         t: f64,
     },
     /// What was waited for has not come; the run is back where it was.
@@ -169,7 +169,7 @@ pub enum Said {
     Start,
     /// No frame before this one is kept.
     Oldest {
-        /// Its time, s.
+        /// Time of this frame, s.
         t: f64,
     },
     /// No later frame is there: this one is the newest.
@@ -178,7 +178,7 @@ pub enum Said {
     NoEarlierImpact,
     /// A recording begins here.
     Recording {
-        /// When, s.
+        /// Time at which the recording begins, s.
         t: f64,
     },
     /// No recording begins here: the run could not go on from here bit for bit.
@@ -196,7 +196,7 @@ pub enum Said {
     Differs {
         /// The first frame that differs.
         frame: u64,
-        /// Its time, s.
+        /// Time of that frame, s.
         t: f64,
         /// What differs in the frame.
         suspect: Suspect,
@@ -215,7 +215,7 @@ pub enum Said {
     },
     /// On the way to a far time frames were too many to be counted: none before this one is kept.
     Anew {
-        /// Its time, s.
+        /// Time of this frame, s.
         t: f64,
     },
 }

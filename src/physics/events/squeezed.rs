@@ -58,7 +58,7 @@ pub(super) fn walls_touched(
     touched.map(|wall| (Kind::Wall, i, wall)).collect()
 }
 
-/// Of the contacts of one sphere with walls those that can't open: the nearest way to straight off the wall that none
+/// The contacts among those of one sphere with walls that cannot open: the nearest way to straight off the wall that none
 /// of the others forbids does not leave it.
 pub(super) fn squeezing(model: &Model, trajectories: &Trajectories, keys: &[Key]) -> Vec<Key> {
     if keys.len() < 2 {

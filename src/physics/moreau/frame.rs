@@ -159,7 +159,7 @@ impl Moreau {
         self.walls_that_held(sphere).map(|wall| -gap(wall)).fold(0.0, f64::max)
     }
 
-    /// Of the walls that a sphere has been found to meet in this round, keeps those that hold it already and the first
+    /// Keeps, of the walls that a sphere has been found to meet in this round, those that hold it already and the first
     /// that it strikes, unless one holds it: whether it strikes the others too is seen on the path that these leave it.
     /// So walls that share a point (seams, doubled walls) strike once. What strikes takes its share of the tangential
     /// velocity.
