@@ -19,12 +19,13 @@ pub fn bind(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, 
     }
 }
 
-/// A row of which less than this share is new is left out where only rounding is to be put right: to close what rounding has
-/// left of a gap, 1e-16 m, between two walls whose normals oppose each other within 1e-9 would move a sphere by 1e-7 m
+/// A row of which less than this share is new is left out where only rounding is to be put right: to close what rounding
+/// has left of a gap, 1e-16 m, between two walls whose normals oppose each other within 1e-9 would move a sphere by 1e-7 m
 /// across them.
 const NEARLY_DEPENDENT: f64 = 1e-5;
 
-/// [`bind`] to put right what rounding has left of rows that hold already: u is changed by no more than 1e5 times that.
+/// Solves as [`bind`] does to put right what rounding has left of rows that hold already: u is changed by no more than 1e5
+/// times that.
 pub fn restore(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> Vec<DVec3> {
     match rows {
         [row] => bind_one(inverse_mass, free, row).0,
@@ -35,7 +36,7 @@ pub fn restore(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> Vec<DVec3>
     }
 }
 
-/// [`bind`] for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.
+/// Solves as [`bind`] does for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.
 fn bind_one(inverse_mass: &[f64], free: &[DVec3], row: &Row) -> (Vec<DVec3>, Vec<f64>) {
     let mut u = free.to_vec();
     let weight = inverse_mass[row.a] + row.b.map_or(0.0, |b| inverse_mass[b]);
@@ -82,7 +83,7 @@ fn bind_all(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], dependent: f64) 
     (u, multipliers)
 }
 
-/// M^−½ Jᵀ / √A of one row: a unit vector.
+/// The column M^−½ Jᵀ / √A of one row: a unit vector.
 fn column(inverse_mass: &[f64], row: &Row, length: f64) -> Vec<f64> {
     let mut column = vec![0.0; 3 * inverse_mass.len()];
     let mut set = |body: usize, normal: DVec3| {

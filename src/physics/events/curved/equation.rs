@@ -10,19 +10,19 @@ use crate::physics::wall_parts::{BORDER, room};
 /// rounding, and less than moves anything by 1e-14 m during an arc.
 const IDLE: f64 = 1e-11;
 
-/// How fast it may open, in the same units, before it must let go: a contact that opens by no more than the acceleration of a
-/// chord is off would be met again at once.
+/// How fast an idle contact may open, in units of the applied acceleration, before it must let go: a contact that opens by
+/// no more than the acceleration of a chord is off would be met again at once.
 pub(crate) const BARELY: f64 = 1e-3;
 
-/// How far it may open, in radii, before it must let go: so far that the chords, which depart from the path by a hundredth of
-/// that, do not meet it again, and so little that it may carry again as it is.
+/// How far an idle contact may open, in radii, before it must let go: so far that the chords, which depart from the path by
+/// a hundredth of that, do not meet it again, and so little that it may carry again as it is.
 pub(crate) const OPENED: f64 = 1e-11;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
 const SUNK: f64 = 1e-13;
 
-/// Overlaps up to so many radii are healed; deeper ones are the scene's.
+/// Deepest overlap that is healed, in radii; deeper ones are the scene's.
 const HEALED: f64 = 1e-10;
 
 /// The differential equation of an island while the contacts that carry a load now go on holding.
@@ -69,8 +69,8 @@ impl<'a> ConstrainedMotion<'a> {
         self.stepped(start, h, &STAGES, &ORDER_8)
     }
 
-    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
-    /// rounding.
+    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order
+    /// h⁵ is far below rounding.
     pub(crate) fn step_rk4(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &CLASSICAL, &ORDER_4)
     }
@@ -104,7 +104,7 @@ impl<'a> ConstrainedMotion<'a> {
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 
-    /// What later margins are measured from.
+    /// Rooms, openings and gaps of idle contacts now, from which later margins are measured.
     pub(crate) fn marks(&self, bodies: &[Body]) -> Marks {
         let openings = self.openings(bodies, &self.accelerations(bodies).0);
         Marks { rooms: self.rooms(bodies), openings, gaps: self.idle_gaps(bodies) }
@@ -192,7 +192,7 @@ fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3
 /// Weights of the stages of the classical method, each over the stages before it.
 const CLASSICAL: [&[f64]; 4] = [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
 
-/// Weights of its result.
+/// Weights of the result of the classical method.
 const ORDER_4: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
 /// Weights of the stages of RKF 7(8), each over the stages before it.
