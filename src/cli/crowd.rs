@@ -16,8 +16,8 @@ use crate::scene;
 /// Settings of a crowd unless told otherwise: a step and half of it, a tolerance.
 const CROWD: ([f64; 2], f64) = ([1e-2, 5e-3], 1e-6);
 
-/// What a run may take: ns of counted work, and rests and releases, of which a heap of hundreds makes a thousand a second. About
-/// a minute, and the same end on every machine.
+/// What a run may take: ns of counted work, and rests and releases, of which a heap of hundreds makes a thousand a second.
+/// About a minute, and the same end on every machine.
 const MOST: (u64, u64) = (60_000_000_000, 60_000);
 
 /// Measures the crowd of each scene, or a part of that.

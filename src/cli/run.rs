@@ -106,7 +106,8 @@ impl Recorder<'_> {
         Ok(None)
     }
 
-    /// Writes the events up to the end of the run: the last frame may reach beyond it, and what happens there belongs to no row.
+    /// Writes the events up to the end of the run: the last frame may reach beyond it, and what happens there belongs to no
+    /// row.
     fn write_events(&mut self) -> Result<(), Failure> {
         let events = self.simulation.take_events();
         self.jury.judge(&self.simulation, &events);
@@ -163,7 +164,8 @@ fn unsolved(tallies: &Tallies) -> Option<String> {
     })
 }
 
-/// The times of states, s: 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows.
+/// The times of states, s: 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding
+/// grows.
 fn sample_times(until: f64, every: Option<f64>) -> impl Iterator<Item = f64> {
     let every = every.unwrap_or(until);
     (0_u64..).map(move |k| k as f64 * every).take_while(move |time| *time < until).chain(std::iter::once(until))

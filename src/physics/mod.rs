@@ -1,8 +1,8 @@
 //! The door to the physics: a [`Simulation`] of a [`Scene`] by a [`Method`], advanced in slices and read between frames.
 //!
 //! Data flow: scene → [`model`] (what is constant, and only what the scene requires) → one method, which advances a
-//! [`State`] and tells a log of contacts, events and tallies → read through [`Simulation`]. Begin with [`simulation`],
-//! then [`method`]; then `events`, or the methods `paper` and `moreau`.
+//! [`State`] and tells a log of contacts, events and tallies → read through [`Simulation`]. Begin with [`simulation`], then
+//! [`method`]; then `events`, or the methods `paper` and `moreau`.
 //!
 //! | file | owns |
 //! |---|---|
@@ -32,8 +32,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
-//! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
+//! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the same
+//! bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 
 mod approach;
 mod closed_room;

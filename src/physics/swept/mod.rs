@@ -7,8 +7,8 @@
 //! halves a step that rounding has made too long (`advancement`). Responses come one after the other, and what rests is
 //! held up island by island, as in every method that knows the order of its events.
 //!
-//! All of it is the engine of `events` but for `advancement`, the search for a contact, and `separation`, what a look at two
-//! bodies sees.
+//! All of it is the engine of `events` but for `advancement`, the search for a contact, and `separation`, what a look at
+//! two bodies sees.
 
 mod advancement;
 mod separation;
