@@ -3,7 +3,7 @@
 use crate::random::Random;
 use crate::support::{self, ELASTIC, G, PAPER_LAW, go, pyramid, room, scene, sphere, still, wall};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
-use carom::scene::{ContactLaw, Sphere, Wall};
+use carom::scene::{ContactLaw, Wall};
 use glam::{DVec3, dvec3};
 
 /// Impacts lose half of the approach speed.

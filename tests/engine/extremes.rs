@@ -5,7 +5,7 @@
 
 use crate::support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, recorded, room, run_to, scene, sphere, still, wall};
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
-use carom::scene::{ContactLaw, Sphere, Wall};
+use carom::scene::{ContactLaw, Wall};
 use glam::{DVec3, dvec3};
 
 /// What is found, or what must not be.

@@ -20,6 +20,7 @@
 //! | `pivoting`, `gram` | block principal pivoting, and its Cholesky factor |
 //! | `gauss_seidel` | projected Gauss–Seidel |
 //! | `equality` | contacts that hold both ways |
+//! | `short` | lists that ask for no memory of their own as long as they are short |
 //! | `agreement` | the solvers against each other, a test |
 //!
 //! Plain data in, plain data out; nothing here knows of scenes, walls or time.
@@ -38,12 +39,14 @@ mod island;
 mod pivoting;
 mod problem;
 mod resting;
+mod short;
 mod solution;
 mod solve;
 
-pub use equality::{bind, restore};
+pub use equality::{bind, restore, restore_both};
 pub use island::{Island, islands};
 pub use problem::Row;
 pub use resting::{Bodies, Fate, Held, Resting, Surface, accelerations, hold, velocities};
+pub use short::Short;
 pub use solution::{Report, Solution, Solver};
 pub use solve::solve;
