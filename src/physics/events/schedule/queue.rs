@@ -199,16 +199,16 @@ impl MinTreeJob for Lookup<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
     #[test]
     fn the_first_is_what_a_linear_search_finds() {
         let count = 1000;
         let mut queue = Queue::new(count);
         let mut times = vec![f64::INFINITY; count];
-        let mut seed = 1_u64;
+        let mut draw = SplitMix64::new(1);
         for _ in 0..20_000 {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let (i, time) = ((seed >> 33) as usize % count, ((seed >> 20) % 512) as f64);
+            let (i, time) = (draw.below(count), draw.below(512) as f64);
             times[i] = time;
             let first = queue.earliest();
             if first.1 == Some(i) {

@@ -386,16 +386,13 @@ mod tests {
     use super::*;
     use crate::physics::events::trajectories::Trajectories;
     use crate::physics::model::Model;
+    use crate::random::SplitMix64;
     use glam::dvec3;
 
-    /// Numbers in [−1, 1) of many magnitudes, the same in every run.
+    /// Numbers of three magnitudes and either sign, the same in every run.
     fn numbers() -> impl FnMut() -> f64 {
-        let mut seed = 1_u64;
-        move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let share = (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
-            share * [1.0, 1e-3, 1e3][(seed >> 5) as usize % 3]
-        }
+        let mut draw = SplitMix64::new(1);
+        move || draw.centered() * [1.0, 1e-3, 1e3][draw.below(3)]
     }
 
     #[test]
