@@ -65,7 +65,7 @@ pub fn duration(seconds: f64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
-/// From this many seconds on, and from this factor on, a figure is written with an exponent.
+/// Least number of seconds, and least factor, that is written with an exponent.
 const FIXED: f64 = 1e9;
 
 /// A time (s) with four decimals, without its unit.

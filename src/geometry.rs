@@ -30,7 +30,7 @@ pub enum Feature {
 pub struct Closest {
     /// The closest point, m.
     pub point: DVec3,
-    /// From the closest point to the given one, m; its length is the distance.
+    /// The way from the closest point to the given one, m; its length is the distance.
     pub offset: DVec3,
     /// What the closest point belongs to.
     pub feature: Feature,
@@ -125,7 +125,7 @@ pub struct Outline {
     center: DVec3,
     /// Components of the axes (m², or m for a cross product with a side), of any length.
     axes: [[f64; 8]; 3],
-    /// Their absolute values.
+    /// Absolute values of the components of the axes.
     sizes: [[f64; 8]; 3],
     /// Half the width of the parallelogram along each axis, m times the axis.
     reaches: [f64; 8],

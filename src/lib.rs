@@ -1,13 +1,13 @@
-//! Carom simulates rigid spheres that bounce between parallelogram walls and each other, and measures how much
-//! accuracy costs how much time.
+//! Carom simulates rigid spheres that bounce between parallelogram walls and each other, and measures how much accuracy
+//! costs how much time.
 //!
-//! Data flows one way: scene file → validated [`scene::Scene`] → [`physics`] model → method → [`snapshot`] →
-//! [`view`] → terminal. Imports run the other way; `tests/tidy.rs` enforces it. SI units throughout; `f64`; y is up.
+//! Data flows one way: scene file → validated [`scene::Scene`] → [`physics`] model → method → [`snapshot`] → [`view`] →
+//! terminal. Imports run the other way; `tests/tidy.rs` enforces it. SI units throughout; `f64`; y is up.
 //!
-//! As a library there are three doors: [`scene`] makes scenes, [`physics`] runs them, [`measure`] says how far off they are;
-//! beside them [`audit`] judges a run, [`marks`] the trajectory of any program, [`snapshot`] copies one, [`export`] writes rows. Every other module is the program's
-//! own: public for its tests, not shown here, and free to change.
-//! The physics builds without the terminal and the command line: `default-features = false`. A whole program:
+//! As a library there are three doors: [`scene`] makes scenes, [`physics`] runs them, [`measure`] says how far off they
+//! are; beside them [`audit`] judges a run, [`marks`] the trajectory of any program, [`snapshot`] copies one, [`export`]
+//! writes rows. Every other module is the program's own: public for its tests, not shown here, and free to change. The
+//! physics builds without the terminal and the command line: `default-features = false`. A whole program:
 //!
 //! ```
 //! use carom::physics::{Class, Simulation};

@@ -10,9 +10,9 @@ use crate::scene::{Scene, Settings};
 /// How a run was left.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
-    /// It reached the scene's duration.
+    /// The run reached the scene's duration.
     Done,
-    /// It could not go on.
+    /// The run could not go on.
     Stalled(Stall),
     /// `keep_on` returned false, at the end of a frame at this time, s.
     Stopped(f64),
@@ -21,7 +21,7 @@ pub enum Ending {
 /// Tells a run of `scene` from its start to its duration, flushing `out` with what has happened so far.
 ///
 /// # Errors
-/// The writer's.
+/// The error of the writer.
 pub fn tell(scene: &Scene, settings: Settings, out: &mut impl Write, keep_on: impl Fn() -> bool) -> io::Result<Ending> {
     let mut simulation = Simulation::new(scene, settings);
     simulation.record_events(true);
@@ -65,7 +65,7 @@ struct Teller<'a, W: Write> {
     scene: &'a Scene,
     out: &'a mut W,
     watch: Watch,
-    /// Whether the alarm has been told; it is told once.
+    /// Whether the alarm has been told: it is told once.
     told: bool,
     impacts: u64,
 }

@@ -37,7 +37,7 @@ fn try_all([good, other]: [&[&str]; 2], ending: &str, check: impl Fn(&[u8]) -> b
     let [files, others] = [good, other].map(|folders| mutant::files(folders, ending, 4096));
     let mut read = 0_u64;
     for seed in 0..mutants() {
-        let file = mutant::mutant(&files, &others, &mut Random(seed));
+        let file = mutant::mutant(&files, &others, &mut Random::new(seed));
         let tried = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| check(&file)));
         let was_read = tried.unwrap_or_else(|_| panic!("mutant {seed}:\n{}", String::from_utf8_lossy(&file)));
         read += u64::from(was_read);

@@ -10,6 +10,8 @@ mod plan;
 mod readme;
 #[path = "tidy/source.rs"]
 mod source;
+#[path = "tidy/words.rs"]
+mod words;
 
 use std::collections::BTreeSet;
 
@@ -18,6 +20,7 @@ use plan::{
     UNFINISHED,
 };
 use source::{Contents, File, Name, Named, Root};
+use words::{maps_its_files, speaks_of_things, stands_alone};
 
 type Rule = fn(&File) -> Vec<String>;
 
@@ -306,6 +309,21 @@ fn functions_and_files_fit() {
 }
 
 #[test]
+fn comments_speak_of_things() {
+    holds(speaks_of_things, &["src", "tests", "benches", "examples"]);
+}
+
+#[test]
+fn the_first_line_of_a_doc_comment_stands_alone() {
+    holds(stands_alone, &["src"]);
+}
+
+#[test]
+fn the_map_of_a_room_names_its_files() {
+    holds(maps_its_files, &["src"]);
+}
+
+#[test]
 fn no_test_sleeps_reads_a_clock_or_is_ignored() {
     holds(is_an_honest_test, &["tests"]);
 }
@@ -349,6 +367,12 @@ const OFFENCES: &[(Rule, &str, &str)] = &[
     (is_finished, "src/cli/run.rs", "fn f(a: Option<u8>) -> u8 { a.unwrap() }"),
     (is_finished, "src/cli/run.rs", "fn f(a: Option<u8>) { assert!(a.unwrap() > 0); }"),
     (is_finished, "src/cli/run.rs", "fn f() { todo!() }"),
+    (speaks_of_things, "src/scene/rules.rs", "// lent to whoever looks around\nfn f() {}"),
+    (speaks_of_things, "tests/cli.rs", "/// Who touches whom.\nfn f() {}"),
+    (stands_alone, "src/scene/rules.rs", "/// The same, but for walls.\nfn f() {}"),
+    (stands_alone, "src/scene/rules.rs", "struct S {\n    /// Its length, m.\n    length: f64,\n}"),
+    (maps_its_files, "src/view/mod.rs", "//! Begin with `stage`.\nmod stage;\nmod sheet;"),
+    (maps_its_files, "src/view/mod.rs", "//! | `stage`, `look` | one view |\nmod stage;"),
     (is_an_honest_test, "tests/cli.rs", "#[test] #[ignore] fn f() {}"),
     (is_an_honest_test, "tests/cli.rs", "fn f() { std::thread::sleep(D); }"),
     (is_an_honest_test, "tests/cli.rs", "fn f() { let t = std::time::Instant::now(); }"),
@@ -417,6 +441,13 @@ fn what_is_allowed_is_not_an_offence() {
         (sees_only_its_arguments, "src/view/mod.rs", "use std::sync::Arc; fn f() { std::iter::once(1); }"),
         (judges_for_itself, "src/audit/law.rs", "use crate::physics::{Class, Contact, contact::Key, wall::Face};"),
         (is_finished, "src/cli/run.rs", "#[cfg(test)] mod tests { fn f() { Some(1).unwrap(); } }"),
+        (speaks_of_things, "src/scene/warnings.rs", "fn f() -> &'static str { \"nobody will see the end\" } // whole"),
+        (stands_alone, "src/scene/rules.rs", "/// A length, m.\n/// It is above 0.\nfn f() {}"),
+        (
+            maps_its_files,
+            "src/cli/mod.rs",
+            "//! | `run` | a run |\n//! | the rest | a command each |\nmod run;\nmod show;",
+        ),
     ];
     for (rule, path, text) in fine {
         assert_eq!(rule(&File::new(path, text)), Vec::<String>::new(), "{text:?} in {path}");

@@ -89,10 +89,9 @@ impl State {
     /// Takes pasted text where text is typed.
     pub(super) fn paste(&mut self, text: &str) -> Effect {
         let typing = match &self.open {
-            Open::Prompt(_) => true,
+            Open::Prompt(_) | Open::Events(_) => true,
             Open::Scenes(list) => list.filtering(),
-            Open::Events(_) => true,
-            _ => false,
+            Open::Help { .. } | Open::Nothing => false,
         };
         if !typing {
             return Effect::Nothing;
@@ -301,7 +300,7 @@ impl State {
         }
     }
 
-    /// From the numbers to a contact's card, to nothing, and round again.
+    /// Shows the numbers, then a contact's card, then nothing, and round again.
     fn next_inspector(&mut self) {
         let settings = &mut self.view_settings;
         let shown = view::inspector_is_shown(settings, self.area);
@@ -313,7 +312,7 @@ impl State {
         (settings.inspector, settings.card) = (Some(inspector), card);
     }
 
-    /// To the first collision, with its card open: what a newcomer sees first.
+    /// Goes to the first collision, with its card open: what a newcomer sees first.
     pub(super) fn first_look(&mut self) {
         self.go_to_impact(true);
         self.sought = Some(Sought::FirstLook);
@@ -372,12 +371,12 @@ impl State {
         true
     }
 
-    /// To the newest frame, or to the first that is kept.
+    /// Goes to the newest frame, or to the first that is kept.
     fn go_to_the_end(&mut self, newest: bool) {
         self.head_for(if newest { Command::Newest } else { Command::Oldest }, true);
     }
 
-    /// To the next impact or the one before, to select what collides.
+    /// Goes to the next impact or the one before, to select what collides.
     fn go_to_impact(&mut self, next: bool) {
         match next {
             true => self.advance(Command::Until(Stop::Event(Class::Collide, Bodies::Any))),
@@ -435,7 +434,8 @@ impl State {
     }
 }
 
-/// Where a key scrolls a text that goes down by `limit` rows at most, on a screen of so many, if it is a scrolling key.
+/// Where a key scrolls a text that goes down by `limit` rows at most, on a screen of `screen` rows; none if it scrolls
+/// nothing.
 fn scrolled(key: Key, scroll: usize, limit: usize, screen: usize) -> Option<usize> {
     // Status, heading, timeline and hints leave the rest of the screen to the text.
     let page = screen.saturating_sub(4).max(1);

@@ -102,7 +102,7 @@ pub enum Action {
 }
 
 impl Action {
-    /// Its name in a configuration: `step`, `pan_left`.
+    /// Name of the action in a configuration: `step`, `pan_left`.
     pub fn name(self) -> String {
         let mut name = String::new();
         for c in format!("{self:?}").chars().filter(|c| *c != ')') {

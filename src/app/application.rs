@@ -86,7 +86,8 @@ impl App {
         self.state.tell(news);
     }
 
-    /// Ends: a recording under way is written, and what there is to say of that is returned, as of one that quitting has written.
+    /// Ends the application: a recording under way is written, and what there is to say of that is returned, as of one that
+    /// quitting has written.
     pub fn finish(&mut self) -> Option<String> {
         if self.awaits_report() || self.state.report.recorded.is_some() {
             self.state.write_tape();

@@ -12,10 +12,10 @@ use crate::{
 /// Bytes per sphere that the exact run beside a run takes, its copies of positions counted: measured with a gas of 10⁶.
 const SPHERE: usize = 1100;
 
-/// From so many spheres on it is said what the exact run costs before it is taken.
+/// Fewest spheres for which it is said what the exact run costs before it begins.
 const MANY: usize = 50_000;
 
-/// What the exact run of so many spheres takes, if that is worth a word.
+/// A sentence on what the exact run of `spheres` takes; none if that is not worth a word.
 pub(super) fn cost(spheres: usize) -> Option<String> {
     let megabytes = (spheres * SPHERE).div_ceil(1_000_000);
     let said = || format!("The exact run of {spheres} spheres takes about {megabytes} MB and a processor of its own");
@@ -52,7 +52,7 @@ impl Comparison {
         Ok(Comparison { stage, follower, ghost: Arc::new(None), trade })
     }
 
-    /// Ends it; the next one takes what is returned.
+    /// Ends the comparison; the next one takes what is returned.
     pub(super) fn end(self) -> Ending {
         self.follower.end()
     }
@@ -111,7 +111,7 @@ impl Comparison {
         (*self.ghost).as_ref()
     }
 
-    /// As it is drawn.
+    /// The comparison as the view draws it.
     pub(super) fn shown(&self) -> view::Comparison<'_> {
         view::Comparison { ghost: self.ghost(), trade: &self.trade }
     }

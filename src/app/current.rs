@@ -15,12 +15,12 @@ use crate::{
 pub(super) struct Current {
     /// Built-in name or path, as it is shown.
     pub(super) name: String,
-    /// Its file, unless it is built in.
+    /// The scene's file; none if it is built in.
     pub(super) path: Option<PathBuf>,
     pub(super) scene: Arc<Scene>,
-    /// What its snapshots show as constant.
+    /// What the scene's snapshots show as constant.
     pub(super) stage: Arc<Stage>,
-    /// The recording that it is of, if it is.
+    /// The recording that is replayed; none for a scene.
     pub(super) recording: Option<Arc<Recording>>,
 }
 

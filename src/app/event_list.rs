@@ -25,9 +25,9 @@ pub(super) struct EventList {
 pub(super) enum Outcome {
     /// The list stays open.
     Stay,
-    /// It closes.
+    /// The list closes.
     Close,
-    /// It closes, and the run goes to the event of this number.
+    /// The list closes, and the run goes to the event of this number.
     Go(u64),
     /// The key is none of the list's.
     NotMine,

@@ -9,13 +9,13 @@ use std::{
 
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-/// Numbers that are tried.
+/// Most numbers that are tried for a name.
 const NUMBERS: u32 = 10_000;
 
 /// Writes files of these endings and contents, all under one name that none of them has yet: `stem-1.svg`, `stem-1.ron`.
 ///
 /// # Errors
-/// The system's; then none of them is there.
+/// The system's error; then none of the files is there.
 pub(super) fn write(folder: &Path, stem: &str, files: &[(&str, &[u8])]) -> Result<Vec<String>, Error> {
     let drafts: Vec<NamedTempFile> = files.iter().map(|(_, bytes)| draft(folder, bytes)).collect::<Result<_, _>>()?;
     let mut drafts: Vec<Option<NamedTempFile>> = drafts.into_iter().map(Some).collect();

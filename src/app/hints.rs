@@ -1,4 +1,4 @@
-//! The hint line: the keys that are useful where one is.
+//! The hint line: the keys that are useful for what is on the screen.
 
 use super::{action::Action, keymap::Keymap};
 
@@ -9,7 +9,7 @@ pub(super) enum Place {
     Run,
     /// A pause at a frame with an impact, whose search can be gone through or not.
     Impact {
-        /// Whether its trial steps are known.
+        /// Whether the frame's trial steps are known.
         searched: bool,
     },
     /// An earlier frame.
@@ -25,7 +25,7 @@ pub(super) enum Place {
     },
 }
 
-/// (key, a word), the most needed first.
+/// The hints: a key and a word each, the most needed first.
 pub(super) fn hints(keymap: &Keymap, place: Place) -> Vec<(String, &'static str)> {
     let way: &[(Action, &'static str)] = match place {
         Place::Run => return keymap.hints(),

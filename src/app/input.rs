@@ -14,11 +14,11 @@ use crate::{
 pub struct Setup {
     /// The first scene.
     pub opened: Opened,
-    /// What to solve it with.
+    /// The settings to begin with.
     pub settings: Settings,
-    /// Wait at t = 0 instead of running.
+    /// Whether to wait at t = 0 instead of running.
     pub paused: bool,
-    /// Go to the first collision, and wait there with its card open.
+    /// Whether to go to the first collision, and wait there with its card open.
     pub taken_apart: bool,
     /// Dots or characters.
     pub marker: Marker,
@@ -28,7 +28,7 @@ pub struct Setup {
     pub inks: Inks,
     /// Which key does what.
     pub keymap: Keymap,
-    /// The recording that the scene is of; its settings are those to solve it with.
+    /// The recording that is replayed, with its own settings; none for a scene.
     pub recording: Option<Recording>,
     /// Where files are written.
     pub folder: PathBuf,

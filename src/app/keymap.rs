@@ -32,11 +32,11 @@ impl Eq for Row {}
 /// Why a key cannot be bound to an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Clash {
-    /// It is bound to this one as well.
+    /// The key is bound to this action as well.
     Taken(Action),
-    /// It always does this.
+    /// The key always does this.
     Fixed(Action),
-    /// It is bound to the action twice.
+    /// The key is bound to the action twice.
     Twice,
 }
 
@@ -79,7 +79,7 @@ impl Keymap {
         self.rows.iter().find(|row| row.binding.action == action).map_or(&[], |row| &row.keys)
     }
 
-    /// The help: (keys, what they do). Rows that say the same share a line with their first key each.
+    /// The help: keys, and what they do. Rows with equal words share a line with their first key each.
     pub fn help_rows(&self) -> Vec<(String, &'static str)> {
         let rows: Vec<&Row> = self.rows.iter().filter(|row| !row.keys.is_empty()).collect();
         let lines = rows.chunk_by(|a, b| a.binding.does == b.binding.does).map(|same| {
@@ -90,19 +90,19 @@ impl Keymap {
         lines.chain([(IN_THE_LIST.0.to_owned(), IN_THE_LIST.1)]).collect()
     }
 
-    /// The hint line, the most needed first: (key, a word).
+    /// The hint line: a key and a word each, the most needed first.
     pub fn hints(&self) -> Vec<(String, &'static str)> {
         let hint = |row: &Row| Some((row.keys.first()?.to_string(), row.binding.hint?));
         self.rows.iter().filter_map(hint).collect()
     }
 }
 
-/// The help as the table has it: (keys, what they do).
+/// The help of the default keys: keys, and what they do.
 pub fn help_rows() -> Vec<(String, &'static str)> {
     Keymap::default().help_rows()
 }
 
-/// The hint line as the table has it, the most needed first: (key, a word).
+/// The hint line of the default keys: a key and a word each, the most needed first.
 pub fn hints() -> Vec<(String, &'static str)> {
     Keymap::default().hints()
 }

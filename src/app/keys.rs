@@ -10,11 +10,11 @@ use crate::scene::Method;
 pub struct Key {
     /// Which key.
     pub code: Code,
-    /// With Ctrl; letters are then lower case.
+    /// Whether Ctrl is pressed; letters are then lower case.
     pub ctrl: bool,
-    /// With Shift; never set for characters.
+    /// Whether Shift is pressed; never set for characters.
     pub shift: bool,
-    /// With Alt.
+    /// Whether Alt is pressed.
     pub alt: bool,
 }
 
@@ -62,7 +62,7 @@ impl Key {
         Key { code, ctrl: false, shift: true, alt: false }
     }
 
-    /// The character it types, if it types one.
+    /// The character that the key types, if it types one.
     pub fn typed(self) -> Option<char> {
         match self.code {
             Code::Char(c) if !self.ctrl && !self.alt && !c.is_control() => Some(c),
@@ -92,11 +92,11 @@ impl fmt::Display for Key {
 /// A row of the key table.
 #[derive(Debug, Clone, Copy)]
 pub struct Binding {
-    /// Any of these.
+    /// Keys of which each does it.
     pub keys: &'static [Key],
-    /// What they do.
+    /// What the keys do.
     pub action: Action,
-    /// What they do, in words for the help.
+    /// What the keys do, in words for the help.
     pub does: &'static str,
     /// A word for the hint line, if it has a place there.
     pub hint: Option<&'static str>,

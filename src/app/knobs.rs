@@ -54,11 +54,11 @@ pub(super) fn speed(wanted: f64, factor: f64) -> Result<f64, String> {
 }
 
 fn edge(what: &str, value: f64, factor: f64, example: &str) -> String {
-    let end = if factor > 1.0 { "larg" } else { "small" };
-    format!("The keys take {what} no {end}er than {value:e}; exact values: :{example}")
+    let end = if factor > 1.0 { "larger" } else { "smaller" };
+    format!("The keys take {what} no {end} than {value:e}; exact values: :{example}")
 }
 
-/// What to say of a knob that was turned and that the method does not have, if that is so.
+/// A sentence on a knob that was turned and that the method does not have; none if no such knob was.
 pub(super) fn in_vain(before: Settings, after: Settings) -> Option<String> {
     let (knobs, method) = (knobs(after.method), after.method.name());
     if before.tolerance != after.tolerance && knobs.tolerance == Effect::Nothing {

@@ -10,10 +10,10 @@ use super::{
 /// Longest text the line takes; more than any order needs.
 pub(super) const LONGEST: usize = 200;
 
-/// Orders that are remembered.
+/// Most orders that are remembered.
 const REMEMBERED: usize = 100;
 
-/// What a key on the line has made of it.
+/// What a key on the line leads to.
 pub(super) enum Typed {
     /// A text still being typed.
     Text,
@@ -44,7 +44,7 @@ impl Orders {
 #[derive(Debug, Default)]
 pub(super) struct Line {
     input: Input,
-    /// How many orders ago the one is that is shown, and what had been typed before.
+    /// How many orders ago the order was given that is shown, and what had been typed before.
     recalled: Option<(usize, String)>,
 }
 

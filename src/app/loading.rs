@@ -7,9 +7,9 @@ use crate::scene::{self, Opened, Settings};
 
 /// A scene on its way.
 pub(super) struct Loading {
-    /// What it is opened by.
+    /// The name that the scene is opened by.
     pub(super) name: String,
-    /// Whether its file is read again, so that settings changed by hand stay.
+    /// Whether the scene's file is read again, so that settings changed by hand stay.
     pub(super) again: bool,
     pub(super) result: Receiver<Result<Loaded, String>>,
 }

@@ -11,7 +11,7 @@
 //! | `state` | what it holds, and the steps that keys and news are made of |
 //! | `keys`, `action` | the keys, the table of what each does, and the actions |
 //! | `keymap`, `key_name` | the table as bound by the configuration; keys by name |
-//! | `act`, `knobs`, `look`, `prompt` | what each action does: to the settings, to the picture, by exact values |
+//! | `act`, `knobs`, `view_settings`, `prompt` | what each action does: to the settings, to the picture, by exact values |
 //! | `current`, `loading`, `opening`, `scene_list` | the scene shown, the one on its way, and the list of them |
 //! | `event_list`, `seek` | the list of all that has happened; what is looked at where the run was sent |
 //! | `hints` | the keys that are useful where one is |

@@ -7,7 +7,7 @@ use crate::view::Aim;
 /// What the mouse did over which cell of the screen; columns and rows count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Mouse {
-    /// What it did.
+    /// What the mouse did.
     pub gesture: Gesture,
     /// Column, which may be beyond the screen.
     pub column: u16,
@@ -20,7 +20,7 @@ pub struct Mouse {
 pub enum Gesture {
     /// The left button was pressed.
     Press,
-    /// It moved with the left button pressed.
+    /// The mouse moved with the left button pressed.
     Drag,
     /// The button was released.
     Release,
@@ -33,9 +33,9 @@ pub enum Gesture {
 /// The mouse as the application knows it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pointer {
-    /// Whether it was asked for.
+    /// Whether the mouse was asked for.
     pub(super) on: bool,
-    /// What the button was pressed on, while it is.
+    /// What the button was pressed on, while it is pressed.
     pub(super) held: Option<Held>,
 }
 
@@ -49,7 +49,7 @@ pub(super) enum Held {
 }
 
 impl Mouse {
-    /// The cell.
+    /// The cell under the mouse.
     pub(super) fn at(self) -> Position {
         Position::new(self.column, self.row)
     }

@@ -39,7 +39,7 @@ impl State {
         }
     }
 
-    /// Over a list and the help the wheel does what the arrows do.
+    /// Obeys the mouse over a list or the help: the wheel does what the arrows do.
     fn mouse_over_list(&mut self, mouse: Mouse) -> Effect {
         self.pointer.held = None;
         match (mouse.gesture, &self.open) {

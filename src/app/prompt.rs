@@ -15,7 +15,7 @@ pub(super) enum Order {
     Speed(f64),
     /// Time to go to, s, ≥ 0.
     Goto(f64),
-    /// Run until this comes.
+    /// Run until this comes to pass.
     Until(Stop),
     /// Solve by this method from here on.
     Method(Method),
@@ -31,7 +31,7 @@ pub(super) enum Order {
     #[cfg(debug_assertions)]
     #[doc(hidden)]
     Panic {
-        /// In the simulation's thread, not in the one that draws.
+        /// Whether the simulation's thread panics, not the one that draws.
         simulation: bool,
     },
 }

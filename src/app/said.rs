@@ -54,7 +54,7 @@ pub(super) fn sentence(said: &Said, duration: f64) -> String {
     }
 }
 
-/// Whether a recording has begun.
+/// A sentence on whether a recording has begun.
 fn begun(said: &Said) -> String {
     match said {
         Said::Recording { t } => format!("Recording from t = {} s on.", significant(*t, 5)),
@@ -66,7 +66,7 @@ fn begun(said: &Said) -> String {
     }
 }
 
-/// What came, after a colon.
+/// What came, as the text after a colon.
 fn came(stop: &Stop, met: &Met) -> String {
     match met {
         Met::Event(contact) => event(contact.kind, contact.class, contact.a, contact.b),
@@ -78,7 +78,7 @@ fn came(stop: &Stop, met: &Met) -> String {
     }
 }
 
-/// A sentence of an event in the list of them.
+/// An event of the list as a sentence.
 pub(super) fn of_event(logged: &Logged) -> String {
     let Logged { kind, class, a, b, .. } = *logged;
     format!("t = {} s: {}.", number(logged.time), event(kind, class, a as usize, b as usize))

@@ -11,12 +11,12 @@ const FILTER: usize = 200;
 pub(super) struct Entry {
     /// Built-in name, or the path as it was given.
     pub name: String,
-    /// What it is, a line.
+    /// What the scene is, a line.
     pub about: String,
 }
 
 impl Entry {
-    /// A built-in scene; what it is, it says itself.
+    /// The entry of a built-in scene, which says itself what it is.
     fn built_in(name: &str) -> Entry {
         let about = scene::open(name).map(|opened| opened.scene.about.clone()).unwrap_or_default();
         Entry { name: name.into(), about }
@@ -47,9 +47,9 @@ pub(super) struct SceneList {
 pub(super) enum Outcome {
     /// The list stays open.
     Stay,
-    /// It closes.
+    /// The list closes.
     Close,
-    /// It closes and this scene is opened.
+    /// The list closes, and this scene is opened.
     Open(String),
     /// The key is none of the list's.
     NotMine,

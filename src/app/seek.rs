@@ -78,7 +78,7 @@ impl State {
         }
     }
 
-    /// The card of the contact of that index.
+    /// The card of the contact of index `index`, scrolled to its top.
     pub(super) fn card_of(&self, index: usize) -> CardView {
         let order = view::order(&self.report.snapshot, self.view_settings.selected);
         let cursor = order.iter().position(|&other| other == index).unwrap_or(0);

@@ -45,13 +45,13 @@ pub(super) enum Open {
 /// What a run is on its way to, to be looked at there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sought {
-    /// An event of the list: its card is opened.
+    /// An event of the list, whose card is opened.
     Event(Logged),
-    /// Whatever impact comes: what collides is selected.
+    /// Any impact, of which what collides is selected.
     Impact,
     /// A time.
     Time,
-    /// The impact that a newcomer sees first: it is selected, and what is said of it is already there.
+    /// The impact that a newcomer sees first, which is selected, and of which what is said is already there.
     FirstLook,
 }
 
@@ -80,9 +80,9 @@ pub(super) struct State {
     pub(super) sought: Option<Sought>,
     /// What was waited for last.
     pub(super) until: Option<Stop>,
-    /// The exact run beside it, if it was asked for.
+    /// The exact run beside the one shown, if it was asked for.
     pub(super) comparison: Option<Comparison>,
-    /// For so many keys, the one under way among them, it holds that what the exact run costs was told just before.
+    /// Number of keys, the one under way among them, for which it holds that what the exact run costs was told just before.
     pub(super) cost_told: u8,
     /// The exact run shown before, while its thread ends.
     pub(super) ending: Option<Ending>,

@@ -25,7 +25,7 @@ impl State {
         self.taken = Some(receiver);
     }
 
-    /// What was asked for, once it has been handed over.
+    /// The run to be written, once it has been handed over.
     pub(super) fn taken_away(&mut self) -> Option<TakenAway> {
         let found = self.taken.as_ref()?.try_recv();
         if !matches!(found, Err(TryRecvError::Empty)) {

@@ -9,10 +9,10 @@ use crate::{
 const ALLOWED: &str = "collision, rest or release (alone, or of: selected; 3; 3 5; 3 wall 0), exit, t=3, speed>2, \
                        degree>1e-4, energy>1e-3";
 
-/// The words with which it begins, as they are offered.
+/// The words with which an order begins, as they are offered.
 pub(super) const WORDS: [&str; 8] = ["collision", "rest", "release", "exit", "t=", "speed>", "degree>", "energy>"];
 
-/// What bodies can be named.
+/// The bodies that can be named.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Named {
     pub(super) spheres: usize,

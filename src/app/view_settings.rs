@@ -8,10 +8,10 @@ use crate::{
     view::{Overlays, ViewSettings, Views},
 };
 
-/// A press of a pan key moves by this part of the picture.
+/// Share of the picture by which a press of a pan key moves.
 const PAN: f64 = 0.1;
 
-/// A press of a zoom key magnifies by this.
+/// Factor by which a press of a zoom key magnifies.
 pub(super) const ZOOM: f64 = 1.25;
 
 /// Smallest and largest zoom: the scene as a dot, a sphere of a millimetre in a hall across the screen.
@@ -45,10 +45,10 @@ pub(super) fn next_overlays(settings: &mut ViewSettings) -> String {
 }
 
 /// An overlay by its name.
-type Named = (&'static str, fn(&mut Overlays) -> &mut bool);
+type NamedOverlay = (&'static str, fn(&mut Overlays) -> &mut bool);
 
-/// All of them.
-pub(super) const NAMED: [Named; 8] = [
+/// The overlays by name.
+pub(super) const NAMED: [NamedOverlay; 8] = [
     ("contacts", |overlays| &mut overlays.contacts),
     ("normals", |overlays| &mut overlays.normals),
     ("velocities", |overlays| &mut overlays.velocities),
@@ -82,7 +82,7 @@ pub(super) fn show(settings: &mut ViewSettings, words: &str, on: bool) -> Result
     Ok(format!("Shown: {}.", if shown.is_empty() { "nothing but the spheres".into() } else { shown.join(", ") }))
 }
 
-/// Both, side, top, and round again.
+/// Shows both views, the side view, the view from above, and round again.
 pub(super) fn next_views(settings: &mut ViewSettings) {
     settings.views = match settings.views {
         Views::Both => Views::Side,
@@ -124,7 +124,7 @@ pub(super) fn let_go(settings: &mut ViewSettings, scene: &Bounds, x: Option<DVec
     settings.follow = false;
 }
 
-/// The whole scene, as at first; what is selected stays so.
+/// Shows the whole scene, as at first; what is selected stays so.
 pub(super) fn whole_scene(settings: &mut ViewSettings) {
     settings.zoom = 1.0;
     settings.pan = DVec3::ZERO;

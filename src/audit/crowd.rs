@@ -15,14 +15,17 @@ const FEW: usize = 24;
 /// Spheres sorted into cells.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Crowd {
+    /// Lowest corner of the grid, m.
     low: DVec3,
     /// Cells per metre, by axis.
     per_metre: DVec3,
     counts: [usize; 3],
     /// Where each cell's spheres begin in `members`.
     begins: Vec<u32>,
+    /// The spheres that are not large, cell by cell.
     members: Vec<u32>,
     cells: Vec<u32>,
+    /// The large spheres.
     large: Vec<usize>,
     /// Radius of the largest sphere that is not large, m.
     small: f64,
@@ -122,14 +125,12 @@ impl Crowd {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
     #[test]
     fn every_pair_that_touches_is_met_once() {
-        let mut state = 1_u64;
-        let mut unit = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut draw = SplitMix64::new(1);
+        let mut unit = || draw.unit();
         // dust, a few giants, and one sphere far away
         let mut x: Vec<DVec3> = (0..400).map(|_| DVec3::new(unit(), unit(), unit())).collect();
         x[17] = DVec3::new(1e6, -1e6, 3.0);

@@ -9,14 +9,19 @@ use crate::physics::wall::Face;
 /// A wall as the judge measures it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Board {
+    /// First corner, m.
     corner: DVec3,
+    /// First edge, m.
     s1: DVec3,
+    /// Second edge, m.
     s2: DVec3,
-    /// Orthonormal in the plane, the first along `s1`.
+    /// Orthonormal vectors in the plane, the first along `s1`.
     basis: [DVec3; 2],
-    /// |s1| and the height of the parallelogram over it, m; how far `s2` leans along `s1`, m.
+    /// Length of `s1`, m.
     length: f64,
+    /// Height of the parallelogram over `s1`, m.
     height: f64,
+    /// How far `s2` leans along `s1`, m.
     lean: f64,
     /// Unit normal.
     pub(super) normal: DVec3,
@@ -28,7 +33,7 @@ pub(super) fn boards(model: &Model) -> Vec<Board> {
 }
 
 impl Board {
-    /// From a wall's centre and edges; nothing else of it is read.
+    /// The board of a wall, from its centre and edges; nothing else of it is read.
     pub(super) fn of(face: &Face) -> Board {
         Board::new(face.shape.center, face.shape.s1, face.shape.s2)
     }
@@ -45,7 +50,7 @@ impl Board {
         Board { corner, s1, s2, basis: [along, across], length, height, lean, normal: along.cross(across) }
     }
 
-    /// From the wall's first corner to `p`, m.
+    /// The way from the wall's first corner to `p`, m.
     fn arm(&self, p: DVec3) -> DVec3 {
         p - self.corner
     }
@@ -62,7 +67,7 @@ impl Board {
         [(self.basis[0].dot(arm) - second * self.lean) / self.length, second]
     }
 
-    /// From the closest point of the wall to `p` (m), m.
+    /// The way from the closest point of the wall to `p` (m), m.
     pub(super) fn offset(&self, p: DVec3) -> DVec3 {
         if self.shares(p).iter().all(|share| (0.0..=1.0).contains(share)) {
             // no edge is nearer; one beside the foot is as far, to rounding, from up to 1e-8 of the distance aside

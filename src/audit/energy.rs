@@ -12,15 +12,18 @@ const ULPS: f64 = 4096.0;
 /// Share of the energy's terms that the motion of one frame may lose: curved rest is integrated to some digits less.
 const MOTION: f64 = 1e-11;
 
-/// The least energy seen.
+/// The energies of the states seen.
 #[derive(Debug, Clone)]
 pub(super) struct Energy {
+    /// Least energy seen, J.
     least: f64,
+    /// Energy of the last state, J.
     last: f64,
-    /// What was hidden of it, J.
+    /// Hidden energy of the last state, J.
     hidden: f64,
     /// Largest Σ of the energy's terms, each taken positive, J: what rounding is relative to.
     size: f64,
+    /// Impacts so far.
     impacts: u64,
 }
 
@@ -65,7 +68,8 @@ impl Energy {
     }
 }
 
-/// Σ ½ m v² − m a·x, J, and the same with every term positive. Products of m a and x reach as far as x is rounded: m a |x|.
+/// Σ ½ m v² − m a·x, J, and Σ of the magnitudes of its terms, J. Products of m a and x reach as far as x is rounded: m a
+/// |x|.
 fn energy(model: &Model, state: &State) -> (f64, f64) {
     let mut sum = (0.0, 0.0);
     for (i, (x, v)) in state.x.iter().zip(&state.v).enumerate() {

@@ -70,7 +70,7 @@ impl Fault {
 /// Which bodies a finding is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bodies {
-    /// All of them.
+    /// All bodies.
     All,
     /// A sphere.
     Sphere(usize),
@@ -106,17 +106,17 @@ impl fmt::Display for Bodies {
 /// One fault of some bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finding {
-    /// What is wrong.
+    /// The kind of fault.
     pub fault: Fault,
-    /// When it was first seen, s.
+    /// Time at which the fault was first seen, s.
     pub time: f64,
-    /// Which bodies.
+    /// The bodies that have the fault.
     pub bodies: Bodies,
     /// The worst value seen, in the unit of the fault.
     pub value: f64,
-    /// What it should not exceed.
+    /// What the value should not exceed, in the unit of the fault.
     pub bound: f64,
-    /// How often it was seen.
+    /// How often the fault was seen.
     pub times: u64,
 }
 

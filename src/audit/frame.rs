@@ -5,9 +5,9 @@ use crate::physics::{Contact, State};
 /// What a frame has left behind.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
-    /// The state at its end.
+    /// The state at the end of the frame.
     pub state: &'a State,
-    /// Its contacts, in the order in which they were handled.
+    /// The frame's contacts, in the order in which they were handled.
     pub contacts: &'a [Contact],
     /// The events told since the frame before.
     pub events: &'a [Contact],

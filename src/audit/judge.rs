@@ -105,8 +105,8 @@ impl Judge {
     }
 }
 
-/// How far the bodies of an impact may have moved, m, from where they met to where they are at the frame's end: `moreau` meets
-/// within the frame what it strikes.
+/// How far the bodies of an impact may have moved, m, from where they met to where they are at the frame's end: `moreau`
+/// meets within the frame what it strikes.
 fn moved(method: Method, [before, after]: [&State; 2], row: &Contact) -> f64 {
     if method != Method::Moreau || row.class != Class::Collide {
         return 0.0;

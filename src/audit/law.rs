@@ -50,8 +50,8 @@ pub(super) fn reduced_mass(model: &Model, row: &Contact) -> f64 {
     }
 }
 
-/// A contact of a state at its own time: the normal points from the closest point to the centre, and the point is there. Its
-/// bodies may have `moved` so far (m) since.
+/// A contact of a state at its own time: the normal points from the closest point to the centre, and the point is there.
+/// Its bodies may have `moved` so far (m) since.
 pub(super) fn judge_place(
     model: &Model,
     promise: Promise,
@@ -90,9 +90,9 @@ pub(super) fn judge_place(
     findings.hold(Fault::Point, row.time, bodies, [off, point[1].x + 4.0 * rounding]);
 }
 
-/// The loss of tangential speed at one point of the walls is taken once: two impacts of a sphere in a row at the same point,
-/// with the same normal and at the same time, are one. What has sent it back in between is a contact of its own; one that
-/// rests may do so without a row, so that spheres which something else holds are left out.
+/// The loss of tangential speed at one point of the walls is taken once: two impacts of a sphere in a row at the same
+/// point, with the same normal and at the same time, are one. What has sent it back in between is a contact of its own; one
+/// that rests may do so without a row, so that spheres which something else holds are left out.
 pub(super) fn judge_friction(
     model: &Model,
     contacts: &[Contact],

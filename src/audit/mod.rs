@@ -12,6 +12,7 @@
 //! | `energy` | that energy never rises, and falls by no more than impacts and rests take |
 //! | `rest` | that what rests is at rest |
 //! | `watch` | the cheapest part, for every run: the deepest overlap, and energy |
+//! | `frame`, `judge`, `finding` | what is judged; all of the above, asked in turn; what they find |
 //!
 //! What it can't see: what happens between the ends of two frames and leaves no trace in states or contacts.
 //!

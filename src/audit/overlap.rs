@@ -19,10 +19,11 @@ const TOUCHING: f64 = 1e-9;
 #[derive(Debug, Clone, Copy)]
 struct Touching {
     key: Key,
-    /// Gap, and what rounding leaves of it, m.
+    /// Gap, m; negative: overlap.
     gap: f64,
+    /// What rounding leaves of the gap, m.
     rounding: f64,
-    /// r, or r₁ + r₂, m.
+    /// Radius r, or sum of the radii r₁ + r₂, m.
     reach: f64,
 }
 
@@ -56,7 +57,7 @@ impl Overlaps {
         Overlaps { boards: boards(model), crowd, found: Vec::new(), allowed: BTreeMap::new() }
     }
 
-    /// Takes what overlaps now for allowed.
+    /// Allows the overlaps that there are at the start.
     pub(super) fn begin(&mut self, model: &Model, x: &[DVec3]) {
         self.find(model, x);
         let deep = self.found.iter().filter(|at| at.gap < 0.0);
@@ -98,7 +99,7 @@ impl Overlaps {
         self.forget_parted();
     }
 
-    /// What overlapped at the start and does so no more is allowed no more.
+    /// Allows no more what overlapped at the start and has parted.
     fn forget_parted(&mut self) {
         if !self.allowed.is_empty() {
             let deep: BTreeSet<Key> = self.found.iter().filter(|at| at.gap < 0.0).map(|at| at.key).collect();

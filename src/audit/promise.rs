@@ -2,12 +2,12 @@
 
 use crate::physics::{Method, Settings};
 
-/// Degrees, dimensionless.
+/// The degrees up to which a method lets bodies overlap, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Promise {
-    /// Of bodies in flight, and of those that rest on faces.
+    /// Degree of bodies in flight, and of those that rest on faces.
     pub(super) flight: f64,
-    /// Of bodies that rest on each other, on edges or on corners: their motion is integrated.
+    /// Degree of bodies that rest on each other, on edges or on corners: their motion is integrated.
     pub(super) curved: f64,
 }
 
@@ -18,10 +18,10 @@ pub(super) const ULPS: f64 = 16.0 * f64::EPSILON;
 pub(super) const FLIGHT: f64 = 1e-12;
 const CURVED: f64 = 1e-9;
 
-/// What `paper` accepts beyond its tolerance.
+/// Degree that `paper` accepts beyond its tolerance.
 const PAPER_SLACK: f64 = 1e-4;
 
-/// The largest tolerance that counts.
+/// The largest tolerance that counts, dimensionless.
 const LARGEST: f64 = 0.5;
 
 impl Promise {
@@ -37,7 +37,7 @@ impl Promise {
         }
     }
 
-    /// The degree from which on a run alarms: coarser than what `--check` holds it to.
+    /// The degree from which on a run alarms: coarser than the one that `--check` holds a run to.
     pub(super) fn alarm(settings: &Settings) -> f64 {
         Promise::of(settings).curved
     }

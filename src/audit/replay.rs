@@ -22,9 +22,9 @@ const HOP: f64 = 1e-6;
 /// Contacts that touch: something that is no impact of the frame may hold, stop or release their bodies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Freedom<'a> {
-    /// At the end of the frame before.
+    /// Contacts that touch at the end of the frame before.
     pub(super) before: &'a BTreeSet<Key>,
-    /// At the end of this one.
+    /// Contacts that touch at the end of this frame.
     pub(super) after: &'a BTreeSet<Key>,
     /// Contacts of the frame before, which `paper` answers now.
     pub(super) answered: &'a [Contact],
@@ -33,21 +33,23 @@ pub(super) struct Freedom<'a> {
 /// What the judge knows of a sphere's velocity.
 #[derive(Debug, Clone, Copy)]
 struct Known {
+    /// Velocity at `t`, m/s.
     v: DVec3,
+    /// Time up to which it is known, s.
     t: f64,
     /// Whether an impact of the frame has changed it.
     struck: bool,
-    /// Whether that was one on a sphere that something else holds.
+    /// Whether that impact was on a sphere that something else holds.
     on_held: bool,
 }
 
-/// Velocities done again.
+/// Velocities computed again from impulses and forces.
 #[derive(Debug, Clone)]
 pub(super) struct Replay {
     known: Vec<Known>,
-    /// Fastest since the last impact, m/s: what rounding is relative to.
+    /// Fastest speed of each sphere since its last impact, m/s: what rounding is relative to.
     scale: Vec<f64>,
-    /// What no sphere's speed exceeds in this frame, m/s.
+    /// Bound of each sphere's speed in this frame, m/s.
     fastest: Vec<f64>,
 }
 
@@ -100,7 +102,8 @@ impl Replay {
         one_by_one.then_some(taken)
     }
 
-    /// The energy (J) that series of bounces may take which are summed up: where bounces rub, all that moves along the wall.
+    /// The energy (J) that series of bounces may take which are summed up: where bounces rub, all that moves along the
+    /// wall.
     fn rubbed(&self, model: &Model, contacts: &[Contact]) -> f64 {
         let law = &model.law;
         if law.tangential == 1.0 || law.wall_restitution == 0.0 || law.wall_restitution == 1.0 {
@@ -183,8 +186,8 @@ impl Replay {
         taken
     }
 
-    /// What the error of a sphere's place is worth, m²/s²: 2 a · 64 ulp; where it met what moves on a curve, which event-driven
-    /// methods follow by chords, what they promise of places, 2 a · 1e-12 r.
+    /// What the error of a sphere's place is worth, m²/s²: 2 a · 64 ulp; where it met what moves on a curve, which
+    /// event-driven methods follow by chords, what they promise of places, 2 a · 1e-12 r.
     fn worth(&self, model: &Model, after: &State, i: usize) -> f64 {
         let rounding = 4.0 * ULPS * (after.x[i].abs().max_element() + model.radii[i]);
         let chord = if self.known[i].on_held { FLIGHT * model.radii[i] } else { 0.0 };
@@ -225,7 +228,7 @@ struct Bound {
     holds: Vec<bool>,
     /// By sphere, another sphere of its group, or itself at the group's root.
     parent: Vec<usize>,
-    /// By the group's root, whether one of it touches a wall.
+    /// By the group's root, whether a sphere of the group touches a wall.
     walled: Vec<bool>,
     /// Energy that slow approaches and ends of bouncing may take without an impact, J.
     slack: f64,

@@ -44,7 +44,8 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
     }
 }
 
-/// From the closest point, or the other centre, to the centre, m; r, or r₁ + r₂, m; what rounding is relative to, m.
+/// A contact measured anew: the way from the closest point, or the other centre, to the centre, m; r, or r₁ + r₂, m; what
+/// rounding is relative to, m.
 fn measured(model: &Model, frame: &Frame, row: &Contact) -> (DVec3, f64, f64) {
     let (x, r) = (frame.state.x[row.a], model.radii[row.a]);
     match row.kind {

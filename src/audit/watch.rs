@@ -1,5 +1,5 @@
-//! The cheapest part of the judge, for every run: the deepest overlap of the states it is shown, and energy. A run shows it a
-//! state after every slice of counted work, so long that the look does not matter; never the clock decides, so that the
+//! The cheapest part of the judge, for every run: the deepest overlap of the states it is shown, and energy. A run shows it
+//! a state after every slice of counted work, so long that the look does not matter; never the clock decides, so that the
 //! same run alarms at the same time everywhere.
 
 use std::fmt;
@@ -14,13 +14,16 @@ use super::promise::Promise;
 /// How many times its own cost lies between two looks: one and a half hundredths at most.
 const SHARE: u64 = 64;
 
-/// What a look costs, in nanoseconds on some machine: once, by sphere, and by sphere and wall. Only ratios matter.
+/// What a look costs whatever the scene, ns on some machine; only the ratio to the other costs matters.
 const ONCE: u64 = 300;
+/// What a look costs more for each sphere, ns.
 const SPHERE: u64 = 120;
+/// What a look costs more for each sphere and wall, ns.
 const WALL: u64 = 4;
 
-/// What a unit of a method's counted work costs on the same machine, ns: a turn of an event-driven loop, a degree.
+/// What a turn of an event-driven loop costs on that machine, ns.
 const TURN: u64 = 150;
+/// What computing a degree costs, ns.
 const DEGREE: u64 = 1;
 
 /// What is wrong with a run: the worst of each kind since the start.
@@ -30,7 +33,7 @@ pub struct Alarm {
     pub overlap: Option<Finding>,
     /// The largest rise of energy beyond rounding, if there is one.
     pub energy: Option<Finding>,
-    /// Why the method may have raised it, as the end of a sentence, if that is known.
+    /// Why the method may have raised the energy, as the end of a sentence, if that is known.
     pub cause: Option<&'static str>,
 }
 
@@ -67,8 +70,9 @@ pub struct Watch {
     overlaps: Overlaps,
     energy: Energy,
     impacts: u64,
-    /// Time of the state looked at last, s, and the counted work up to it.
+    /// Time of the state looked at last, s.
     seen: f64,
+    /// Counted work up to the state looked at last, ns.
     work: u64,
     alarm: Alarm,
 }

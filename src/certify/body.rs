@@ -10,34 +10,37 @@ use crate::physics::Kind;
 /// A sphere, its motion, and where `exact` has it.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
+    /// Mass, kg.
     pub(super) mass: Double,
+    /// Radius, m.
     pub(super) radius: Double,
-    /// Where it was at t = 0, m.
+    /// Centre at t = 0, m.
     pub(super) start: Vector,
-    /// Its motion since its last event, and before that.
+    /// Motion since the last event.
     pub(super) now: Course,
+    /// Motion before the last event.
     pub(super) before: Course,
     /// Acceleration in flight, m/s².
     pub(super) pull: Vector,
-    /// Walls whose faces hold it.
+    /// Walls whose faces hold the sphere.
     pub(super) held: Vec<usize>,
-    /// What it touches at the beginning of its motion.
+    /// What the sphere touches at the beginning of its motion.
     pub(super) met: Vec<(Kind, usize)>,
-    /// Whether contacts of this instant have changed it since it was last settled.
+    /// Whether contacts of this instant have changed the sphere since it was last settled.
     pub(super) open: bool,
-    /// When its last event was in `exact`, s.
+    /// Time of the sphere's last event in `exact`, s.
     pub(super) since: f64,
-    /// Time (s), place (m) and velocity (m/s) that `exact` gave it at its last event.
+    /// Time (s), place (m) and velocity (m/s) that `exact` gave the sphere at its last event.
     pub(super) told: (f64, DVec3, DVec3),
 }
 
 impl Body {
-    /// Its course at `t`, s: the one before, if the last event was later.
+    /// The sphere's course at `t`, s: the one before, if the last event was later.
     pub(super) fn course(&self, t: Double) -> &Course {
         if t < self.now.t { &self.before } else { &self.now }
     }
 
-    /// It goes on from `t` (s), where it meets something.
+    /// Lets the sphere go on from `t` (s), where it meets something.
     pub(super) fn meet(&mut self, t: Double, with: (Kind, usize)) {
         if t != self.now.t {
             self.before = self.now;
@@ -49,8 +52,8 @@ impl Body {
         self.open = true;
     }
 
-    /// Distance (m) of where `exact` has it at `t` (s), by its last event and the shadow's acceleration, from where it is; 0
-    /// if that event is later, and the distance then has been looked at.
+    /// Distance (m) of where `exact` has the sphere at `t` (s), by its last event and the shadow's acceleration, from where
+    /// it is; 0 if that event is later, and the distance then has been looked at.
     pub(super) fn error(&self, t: Double) -> f64 {
         let (time, x, v) = self.told;
         if t < time.into() {

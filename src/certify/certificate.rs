@@ -18,12 +18,12 @@ pub struct Certificate {
     pub until: f64,
     /// The largest distance of a sphere from its place in the shadow run up to then, m.
     pub error: f64,
-    /// Why it ends before the run does; none if it does not.
+    /// Why the certificate ends before the run does; none if it does not.
     pub ending: Option<Ending>,
     /// Impacts, rests and releases that the shadow run has followed.
     pub events: u64,
-    /// Impacts of which `exact` alone says that they come before another one of the same sphere at the same time: by symmetry or
-    /// touch, where the law leaves the order open.
+    /// Impacts of which `exact` alone says that they come before another one of the same sphere at the same time: by
+    /// symmetry or touch, where the law leaves the order open.
     pub ties: u64,
     /// Pairs of bodies that were looked at to show that no other contact comes.
     pub looks: u64,
@@ -86,7 +86,7 @@ fn pursue(scene: &Scene, (until, looks): (f64, u64), go_on: &dyn Fn() -> bool) -
     Some(pursuit.close(followed.err()))
 }
 
-/// The shadow on its way.
+/// A shadow run under way.
 struct Pursuit {
     shadow: Shadow,
     until: f64,
@@ -94,7 +94,7 @@ struct Pursuit {
 }
 
 impl Pursuit {
-    /// What `exact` tells of a frame that is complete.
+    /// Follows what `exact` tells of a frame that is complete.
     fn frame(&mut self, run: &mut Simulation) -> Result<(), Ending> {
         let mut rows = run.take_events();
         rows.retain(|row| row.time <= self.until);

@@ -1,9 +1,9 @@
-//! That a sphere on a parabola stays clear of an obstacle: a plane that has the obstacle behind it, and the whole piece of the
-//! path in front.
+//! The proof that a sphere on a parabola stays clear of an obstacle: a plane that has the obstacle behind it, and the whole
+//! piece of the path in front.
 //!
 //! In front of a plane the distance is a quadratic in time, which is positive where its three Bernstein coefficients are.
-//! Where no plane is found for a piece it is halved. So a yes is a proof but for rounding, for which there is a margin; a no
-//! means only that nothing was shown.
+//! Where no plane is found for a piece it is halved. So a yes is a proof but for rounding, for which there is a margin; a
+//! no means only that nothing was shown.
 
 use glam::DVec3;
 
@@ -14,11 +14,11 @@ pub(super) struct Way {
     pub(super) v: DVec3,
     pub(super) a: DVec3,
     pub(super) length: f64,
-    /// Overlap that it may begin with, m: a contact that has just been answered.
+    /// Overlap that the path may begin with, m: of a contact that has just been answered.
     pub(super) overlap: f64,
-    /// Whether it is known to begin in touch with the obstacle, at rest along the normal, and to be drawn away.
+    /// Whether the path is known to begin in touch with the obstacle, at rest along the normal, and to be drawn away.
     pub(super) lifts: bool,
-    /// Whether bodies touch as it ends.
+    /// Whether bodies touch as the path ends.
     pub(super) end: bool,
 }
 

@@ -6,11 +6,11 @@ use super::vector::Vector;
 /// A parabola from one moment on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Course {
-    /// When it begins, s.
+    /// Time at which the parabola begins, s.
     pub(super) t: Double,
-    /// Centre then, m.
+    /// Centre at `t`, m.
     pub(super) x: Vector,
-    /// Velocity then, m/s.
+    /// Velocity at `t`, m/s.
     pub(super) v: Vector,
     /// Acceleration, m/s².
     pub(super) a: Vector,
@@ -28,7 +28,7 @@ impl Course {
         self.v + self.a * (t - self.t)
     }
 
-    /// This motion with `t` (s) as its origin of time.
+    /// The motion with `t` (s) as its origin of time.
     pub(super) fn from(&self, t: Double) -> Course {
         Course { t, x: self.at(t), v: self.velocity(t), a: self.a }
     }

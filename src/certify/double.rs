@@ -3,9 +3,10 @@
 //! Every operation is a published one whose error is proven for all operands that neither overflow nor underflow; u is
 //! 2⁻⁵³. The sum of two `f64` is exact (Knuth, TAOCP 2, 4.2.2, theorem B), so is their product (Veltkamp's splitting and
 //! Dekker's product, Numer. Math. 18, 224, 1971; no fused operation, so that all machines have the same bits). The rest is
-//! from Joldes, Muller, Popescu, ACM Trans. Math. Softw. 44, 15res, 2017: sum (algorithm 6, relative error at most 3 u² + 13 u³),
-//! product (10, at most 7 u²; Muller, Rideau, ibid. 48, 9, 2022, prove 5 u²), quotient (17, at most 15 u² + 56 u³). The root
-//! is Dekker's: one Newton step from the `f64` root, whose square is taken exactly; at most 25/8 u² (Lefèvre et al., ibid. 49, 2023).
+//! from Joldes, Muller, Popescu, ACM Trans. Math. Softw. 44, 15res, 2017: sum (algorithm 6, relative error at most 3 u² +
+//! 13 u³), product (10, at most 7 u²; Muller, Rideau, ibid. 48, 9, 2022, prove 5 u²), quotient (17, at most 15 u² + 56 u³).
+//! The root is Dekker's: one Newton step from the `f64` root, whose square is taken exactly; at most 25/8 u² (Lefèvre et
+//! al., ibid. 49, 2023).
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -25,7 +26,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
-/// [`two_sum`] of |a| ≥ |b|, or a = 0.
+/// The sum of |a| ≥ |b|, or a = 0, and what rounding took from it.
 #[inline]
 fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -49,9 +50,9 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl Double {
-    /// 0.
+    /// The number 0.
     pub const ZERO: Double = Double { high: 0.0, low: 0.0 };
-    /// 1.
+    /// The number 1.
     pub const ONE: Double = Double { high: 1.0, low: 0.0 };
 
     /// The nearest `f64`.
@@ -79,13 +80,13 @@ impl Double {
         Double { high, low }
     }
 
-    /// Its half, exactly.
+    /// Half of the number, exactly.
     #[inline]
     pub fn half(self) -> Double {
         Double { high: 0.5 * self.high, low: 0.5 * self.low }
     }
 
-    /// Its magnitude.
+    /// Magnitude of the number.
     #[inline]
     pub fn abs(self) -> Double {
         if self.high < 0.0 { -self } else { self }

@@ -7,11 +7,11 @@ use crate::physics::Kind;
 /// Where a certificate ends, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ending {
-    /// When, s.
+    /// Time at which the certificate ends, s.
     pub time: f64,
-    /// Sphere, and wall or second sphere; none if it is about no contact.
+    /// Sphere, and wall or second sphere, of the contact at which it ends; none if there is no such contact.
     pub bodies: Option<(Kind, usize, usize)>,
-    /// Why.
+    /// Why it ends there.
     pub cause: Cause,
 }
 

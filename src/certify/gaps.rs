@@ -1,4 +1,4 @@
-//! That between two events of a sphere it touches nothing: every other sphere and every wall, one by one.
+//! The proof that a sphere touches nothing between two events of its own: every other sphere and every wall, one by one.
 
 use super::clear::{Shape, Way, doubt, leaves_strip};
 use super::course::Course;
@@ -35,7 +35,8 @@ fn is_far(way: &Way, radius: f64) -> bool {
 }
 
 impl Shadow {
-    /// What else sphere `i` touches at `t` (s) besides `met`; refuses if it may touch anything before, from its last event on.
+    /// What else sphere `i` touches at `t` (s) besides `met`; refuses if it may touch anything before, from its last event
+    /// on.
     pub(super) fn clear_until(
         &mut self,
         i: usize,
@@ -119,8 +120,8 @@ impl Shadow {
         Some(Ending { time: since.value() + after, bodies, cause: Cause::Touching })
     }
 
-    /// Whether two spheres, `relative` to each other, touch no more than by `overlap` (m) and come no closer: without acceleration, and
-    /// not approaching as it begins.
+    /// Whether two spheres, `relative` to each other, touch no more than by `overlap` (m) and come no closer: without
+    /// acceleration, and not approaching as it begins.
     fn parts(&self, [(i, one), (j, two)]: [(usize, &Course); 2], relative: &Course, overlap: f64) -> bool {
         let small = Double::from(support::ROUNDING);
         let at = |course: &Course| course.velocity(relative.t).length();

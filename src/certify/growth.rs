@@ -29,7 +29,7 @@ impl Growth {
     }
 }
 
-/// Which power of two a positive number has; the least for 0.
+/// Exponent of the power of two of a positive number, from the least on; 0 for 0.
 fn power(value: f64) -> usize {
     let exponent = value.abs().to_bits() >> 52;
     (exponent.saturating_sub(LEAST) as usize).min(POWERS - 1)

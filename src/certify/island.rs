@@ -15,12 +15,12 @@ struct Island {
     t: Double,
     bodies: Vec<usize>,
     courses: Vec<Course>,
-    /// What holds them: the first sphere, and the wall or the second.
+    /// Contacts that hold the spheres: the first sphere, and the wall or the second.
     contacts: Vec<(Kind, usize, usize)>,
     props: Vec<Prop>,
 }
 
-/// Whether two vectors are the same but for rounding in what is as large as `scale`.
+/// Whether two vectors are equal but for rounding in what is as large as `scale`.
 fn same(one: Vector, two: Vector, scale: Double) -> bool {
     (one - two).length() <= scale * Double::from(ROUNDING)
 }
@@ -31,7 +31,7 @@ fn largest(vectors: &[Vector]) -> Double {
 }
 
 impl Shadow {
-    /// The instant is over: what holds each sphere that it has changed, and how it moves on.
+    /// Ends the instant: finds what holds each sphere that it has changed, and how it moves on.
     pub(super) fn settle(&mut self) -> Result<(), Ending> {
         let mut k = 0;
         while k < self.changed.len() {
@@ -67,8 +67,8 @@ impl Shadow {
         found.into_iter().collect()
     }
 
-    /// Whether an impact has thrown sphere `i` against something that it touches, so that a contact with that comes next, at the
-    /// same time: `exact` may tell it an ulp later.
+    /// Whether an impact has thrown sphere `i` against something that it touches, so that a contact with that comes next,
+    /// at the same time: `exact` may tell it an ulp later.
     fn is_struck(&self, i: usize) -> bool {
         let body = &self.bodies[i];
         let speed = body.now.v.length();
@@ -81,7 +81,8 @@ impl Shadow {
         })
     }
 
-    /// Contacts that hold an island take what presses on them of velocity and acceleration; those that open hold no longer.
+    /// Lets the contacts that hold an island take what presses on them of velocity and acceleration; those that open hold
+    /// no longer.
     fn hold(&mut self, i: usize, bodies: &[usize]) -> Result<(), Ending> {
         let mut island = self.island(i, bodies)?;
         let time = island.t.value();
@@ -122,7 +123,7 @@ impl Shadow {
         self.go_on(&island, &v, &a, scales)
     }
 
-    /// What `hold` asks of spheres that lean on each other: where they are when `i` is, and what they touch.
+    /// The island of spheres that lean on each other: where they are when sphere `i` is, and what they touch.
     fn island(&self, i: usize, bodies: &[usize]) -> Result<Island, Ending> {
         let t = self.bodies[i].now.t;
         if let Some(&j) =
@@ -150,7 +151,8 @@ impl Shadow {
         Ok(Island { t, bodies: bodies.to_vec(), courses, contacts, props })
     }
 
-    /// The spheres of an island move on with velocities `v` (m/s) and accelerations `a` (m/s²), which were as large as `scales` before.
+    /// Lets the spheres of an island move on with velocities `v` (m/s) and accelerations `a` (m/s²), which were as large as
+    /// `scales` before.
     fn go_on(&mut self, island: &Island, v: &[Vector], a: &[Vector], scales: [Double; 2]) -> Result<(), Ending> {
         for (k, &j) in island.bodies.iter().enumerate() {
             let course = &island.courses[k];
@@ -176,14 +178,15 @@ impl Shadow {
 }
 
 impl Island {
-    /// Only what stays closed is left.
+    /// Keeps the contacts that stay closed, and no other.
     fn keep(&mut self, closed: &[bool]) {
         let (mut contacts, mut props) = (closed.iter(), closed.iter());
         self.contacts.retain(|_| contacts.next() == Some(&true));
         self.props.retain(|_| props.next() == Some(&true));
     }
 
-    /// Spheres that move across each other's normal part by themselves: v²/R, where R (m) is the sum of two radii.
+    /// Adds the acceleration at which spheres that move across each other's normal part by themselves: v²/R, where R (m) is
+    /// the sum of two radii.
     fn curve(&mut self, v: &[Vector], reach: impl Fn(usize, usize) -> Double) {
         for prop in &mut self.props {
             let Some(other) = prop.other else { continue };

@@ -14,7 +14,7 @@ use crate::physics::{Class, Contact, Kind};
 /// Part of a time that passes between events of one instant in `exact`: an ulp or two, of which this is some thirty.
 const SAME_TIME: f64 = 1e-14;
 
-/// The same in the shadow.
+/// Part of a time that passes between events of one instant in the shadow: rounding of its arithmetic.
 const SAME_SHADOW_TIME: f64 = 1e-25;
 
 impl Shadow {
@@ -47,8 +47,8 @@ impl Shadow {
         ((one.course(t).at(t) - two.course(t).at(t)).length() - one.radius - two.radius).value()
     }
 
-    /// The gap (m) up to which two spheres touch: more, where the scene has put them a little into or apart from each other and
-    /// they have not moved since.
+    /// The gap (m) up to which two spheres touch: more, where the scene has put them a little into or apart from each other
+    /// and they have not moved since.
     fn in_touch(&self, [a, b]: [usize; 2], t: Double) -> f64 {
         let [one, two] = [a, b].map(|i| &self.bodies[i]);
         let reach = (one.radius + two.radius).value();
@@ -133,8 +133,8 @@ impl Shadow {
         Ok(())
     }
 
-    /// The time `t` (s) of a contact of spheres that have moved as they do only since `since` (s), if it is not before that; the
-    /// same, where they differ by rounding.
+    /// The time `t` (s) of a contact of spheres that have moved as they do only since `since` (s), if it is not before
+    /// that; the same, where they differ by rounding.
     fn not_before(&self, row: &Contact, t: Double, since: Double) -> Result<Double, Ending> {
         if self.at_one_time(t, since) {
             return Ok(since);

@@ -2,8 +2,9 @@
 //!
 //! [`certify`] runs a scene by `exact` and a *shadow* beside it in arithmetic of 32 digits ([`Double`]). The shadow is told
 //! which bodies meet next, and nothing else: it finds the time by Newton's iteration, acts by the paper's law, slides on
-//! faces and leans on spheres that move as it does, and shows for all other bodies, by planes between them, that they do not touch. It shares no code with the
-//! solvers and reads the scene, not the model. Where it cannot follow, the certificate ends, and says why.
+//! faces and leans on spheres that move as it does, and shows for all other bodies, by planes between them, that they do
+//! not touch. It shares no code with the solvers and reads the scene, not the model. Where it cannot follow, the
+//! certificate ends, and says why.
 //!
 //! ```
 //! use carom::certify::certify;

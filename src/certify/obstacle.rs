@@ -1,5 +1,5 @@
-//! What a sphere may meet: a wall, or another sphere. Closest points from the definition of a parallelogram, c + u s₁ + w s₂
-//! with |u|, |w| ≤ ½, and nothing of the solvers.
+//! What a sphere may meet: a wall, or another sphere. Closest points from the definition of a parallelogram, c + u s₁ + w
+//! s₂ with |u|, |w| ≤ ½, and nothing of the solvers.
 
 use super::double::Double;
 use super::vector::Vector;
@@ -9,7 +9,7 @@ use crate::scene::Wall;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plate {
     pub(super) center: Vector,
-    /// Its edges, m.
+    /// Edges, m.
     edges: [Vector; 2],
     /// Unit normal, m.
     pub(super) normal: Vector,
@@ -17,7 +17,7 @@ pub(super) struct Plate {
     pub(super) duals: [Vector; 2],
 }
 
-/// What of an obstacle is met: all points whose distance decides.
+/// The part of an obstacle that is met: all points whose distance decides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Part {
     /// A plane, by a point and the unit normal towards the sphere.
@@ -61,8 +61,8 @@ impl Plate {
         best.map_or(([0, 0], Part::Point(self.center)), |(_, region, part)| (region, part))
     }
 
-    /// Of the edge parallel to edge `along`, on the `sign` side of the other: distance squared of `q` (from the centre), and what
-    /// is closest.
+    /// Squared distance (m²) of `q` (from the centre, m) from the edge parallel to edge `along`, on the `sign` side of the
+    /// other, and what of it is closest.
     fn closest_on_edge(&self, q: Vector, along: usize, sign: i8) -> (Double, Region, Part) {
         let (edge, aside) = (self.edges[along], self.edges[1 - along]);
         let middle = aside * Double::from(0.5 * f64::from(sign));
@@ -81,7 +81,7 @@ impl Plate {
 }
 
 impl Part {
-    /// From the closest point of the part to `x`, m.
+    /// The way from the closest point of the part to `x`, m.
     pub(super) fn arm(&self, x: Vector) -> Vector {
         match *self {
             Part::Plane(point, normal) => normal * normal.dot(x - point),

@@ -25,7 +25,7 @@ pub(super) struct Shadow {
     pub(super) bodies: Vec<Body>,
     /// Pairs of bodies looked at.
     pub(super) looks: u64,
-    /// How many of them a certificate may take.
+    /// Most pairs of bodies that a certificate may look at.
     pub(super) most_looks: u64,
     /// Spheres changed since `exact` was last looked at.
     pub(super) changed: Vec<usize>,
@@ -35,7 +35,7 @@ pub(super) struct Shadow {
     pub(super) ties: u64,
     /// The largest distance of `exact` from the shadow so far, m.
     pub(super) error: f64,
-    /// When it became how large.
+    /// When the error became how large.
     pub(super) growth: Growth,
 }
 
@@ -83,7 +83,7 @@ impl Shadow {
         }
     }
 
-    /// A contact that `exact` tells.
+    /// Follows a contact that `exact` tells.
     pub(super) fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
         match (row.class, row.kind) {
             (Class::Leave, _) => Ok(()),
@@ -109,7 +109,7 @@ impl Shadow {
         Ok(())
     }
 
-    /// Two spheres rest on each other from here on, if they stay together as the instant ends.
+    /// Lets two spheres rest on each other from here on, if they stay together as the instant ends.
     fn lean(&mut self, row: &Contact, v_n: Double) -> Result<(), Ending> {
         let pair = (row.a, row.b);
         if v_n < -Double::from(self.law.rest_speed) && !self.leans.contains(&pair) {
@@ -148,7 +148,7 @@ impl Shadow {
         Ok(())
     }
 
-    /// A sphere goes on from `t` (s), at which `exact` has `time`, where it meets something.
+    /// Lets a sphere go on from `t` (s), at which `exact` has `time` (s), where it meets something.
     pub(super) fn change(&mut self, i: usize, t: Double, time: f64, with: (Kind, usize)) {
         self.bodies[i].meet(t, with);
         self.bodies[i].since = time;

@@ -15,11 +15,11 @@ pub(super) const AT_EVENT: f64 = 1e-20;
 /// How a course begins that is in touch with a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Start {
-    /// At rest along the normal and drawn neither way: it glides along, and no contact comes of it.
+    /// At rest along the normal and drawn neither way: the sphere glides along, and no contact comes of it.
     Glides,
     /// At rest along the normal and drawn away.
     Lifts,
-    /// Otherwise, or not in touch.
+    /// In motion along the normal, drawn towards the plane, or not in touch.
     Open,
 }
 

@@ -1,6 +1,6 @@
-//! What contacts that hold an island leave of its spheres' velocities or accelerations u: w = u + Σ λ J with λ ≥ 0,
-//! rate ≥ 0, and λ = 0 where rate > 0, where J pushes both bodies of a contact apart by their masses, and the rate is n · (w_a − w_b) and
-//! what curvature adds. Every set of contacts is tried; w is the same for all that fit.
+//! What contacts that hold an island leave of its spheres' velocities or accelerations u: w = u + Σ λ J with λ ≥ 0, rate ≥
+//! 0, and λ = 0 where rate > 0, where J pushes both bodies of a contact apart by their masses, and the rate is n · (w_a −
+//! w_b) and what curvature adds. Every set of contacts is tried; w is the same for all that fit.
 
 use super::double::Double;
 use super::vector::Vector;
@@ -18,7 +18,7 @@ pub(super) struct Prop {
     pub(super) body: usize,
     /// The second sphere; none if it is a wall.
     pub(super) other: Option<usize>,
-    /// Unit, towards `body`.
+    /// Unit normal, towards `body`.
     pub(super) normal: Vector,
     /// What the rate has besides n · (w_a − w_b).
     pub(super) bias: Double,

@@ -20,7 +20,7 @@ impl Vector {
         DVec3::new(self.x.value(), self.y.value(), self.z.value())
     }
 
-    /// x, y and z.
+    /// The components x, y and z.
     pub(super) fn components(self) -> [Double; 3] {
         [self.x, self.y, self.z]
     }
@@ -41,12 +41,12 @@ impl Vector {
         self.dot(self).sqrt()
     }
 
-    /// The vector of length 1 in its direction.
+    /// The vector of length 1 in this direction.
     pub(super) fn unit(self) -> Vector {
         self * (Double::ONE / self.length())
     }
 
-    /// Without its part along the unit vector `along`.
+    /// The vector without its part along the unit vector `along`.
     pub(super) fn across(self, along: Vector) -> Vector {
         self - along * self.dot(along)
     }

@@ -7,11 +7,11 @@ use crate::certify::{Certificate, certify};
 use crate::format;
 use crate::scene::{Method, Scene, Settings};
 
-/// That a run shall be certified, and can be.
+/// The mark of a run that shall be certified, and can be.
 pub(super) struct Certified;
 
 impl Certified {
-    /// What the command line asks for.
+    /// The mark, if the command line asks for a run that can be certified.
     ///
     /// # Errors
     /// If it names a method other than `exact`.
@@ -25,7 +25,7 @@ impl Certified {
         }
     }
 
-    /// These settings by `exact`.
+    /// The settings with the method `exact`.
     pub(super) fn settings(&self, settings: Settings) -> Settings {
         Settings { method: Method::Exact, ..settings }
     }

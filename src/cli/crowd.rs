@@ -2,45 +2,38 @@
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
-use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::Failure;
-use super::output::Output;
-use super::progress::{STEPS, progress_bar};
+use super::progress::{self, STEPS};
+use super::results::{Results, jobs, rows, scenes};
 use super::signals::Signals;
-use super::target::{Target, refuse_shared};
-use crate::export::{CrowdRow, Format, Row, Table, is_crowd_part, read_crowd_runs};
+use super::target::Target;
+use crate::export::{CrowdRow, Format, Row, is_crowd_part, read_crowd_runs};
 use crate::measure::{self, Budget, CrowdPlan, Ladder, PlacedRun, SceneCrowds, Shard};
-use crate::printable;
 use crate::scene;
 
 /// Settings of a crowd unless told otherwise: a step and half of it, a tolerance.
 const CROWD: ([f64; 2], f64) = ([1e-2, 5e-3], 1e-6);
 
-/// What a run may take: ns of counted work, and rests and releases, of which a heap of hundreds makes a thousand a second. About
-/// a minute, and the same end on every machine.
+/// What a run may take: ns of counted work, and rests and releases, of which a heap of hundreds makes a thousand a second.
+/// About a minute, and the same end on every machine.
 const MOST: (u64, u64) = (60_000_000_000, 60_000);
 
 /// Measures the crowd of each scene, or a part of that.
 pub(super) fn crowd(arguments: &Measure, seeds: usize, ladder: Ladder, signals: &Signals) -> Result<(), Failure> {
-    let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
-    let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
-    opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
-    let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
-    refuse_shared(&outputs(arguments), &inputs)?;
-    let files = Files::open(arguments)?;
+    let opened = scenes(&arguments.scenes, &outputs(arguments))?;
+    let results = results(arguments)?;
     let (dt, tolerances) = (ladder.dt.unwrap_or(CROWD.0.to_vec()), ladder.tolerances.unwrap_or(vec![CROWD.1]));
     let plan = CrowdPlan {
         rungs: Ladder { methods: ladder.methods, dt: Some(dt), tolerances: Some(tolerances) }.rungs(),
         seeds: seeds as u64,
         budget: Budget { cpu: arguments.timeout.unwrap_or(f64::INFINITY), changes: MOST.1, ..Budget::counted(MOST.0) },
         shard: arguments.shard.unwrap_or(Shard::WHOLE),
-        jobs: arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1),
+        jobs: jobs(arguments.jobs),
     };
     let (wanted, done) = (opened.len() * plan.runs(), AtomicUsize::new(0));
-    let bar = progress_bar(wanted, "runs");
+    let bar = progress::counting(wanted, "runs");
     let advance = || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         bar.set_message(done.to_string());
@@ -56,8 +49,8 @@ pub(super) fn crowd(arguments: &Measure, seeds: usize, ladder: Ladder, signals: 
     let placed = runs.iter().map(|run| PlacedRun { place: String::new(), run: run.clone() });
     let scenes = measure::gather(placed).map_err(|error| Failure::Failed(error.to_string()))?;
     match arguments.shard {
-        None => files.write(&rows(&scenes), &scenes),
-        Some(_) => files.write(&runs, &scenes),
+        None => write(results, &figures(&scenes), &scenes),
+        Some(_) => write(results, &runs, &scenes),
     }
 }
 
@@ -71,20 +64,17 @@ pub(super) fn are_parts(paths: &[PathBuf]) -> bool {
 
 /// Joins parts of crowds.
 pub(super) fn merge(arguments: &Measure) -> Result<(), Failure> {
-    let files = Files::open(arguments)?;
+    let results = results(arguments)?;
     let mut runs = Vec::new();
     for path in &arguments.merge {
-        let name = printable::name(path.as_os_str());
-        let text = scene::contents(path, "the CSV of a part").map_err(|message| format!(" {message}"));
-        let read = text.and_then(|text| read_crowd_runs(text.as_slice()).map_err(|error| error.to_string()));
-        let read = read.map_err(|error| Failure::Failed(format!("{name}:{error}")))?;
-        runs.extend(read.into_iter().map(|(line, run)| PlacedRun { place: format!("{name}:{line}"), run }));
+        let read = rows(path, "the CSV of a part", |text| read_crowd_runs(text)).map_err(Failure::Failed)?;
+        runs.extend(read.into_iter().map(|(place, run)| PlacedRun { place, run }));
     }
     let scenes = measure::gather(runs).map_err(|error| Failure::Failed(error.to_string()))?;
-    files.write(&rows(&scenes), &scenes)
+    write(results, &figures(&scenes), &scenes)
 }
 
-fn rows(scenes: &[SceneCrowds]) -> Vec<CrowdRow> {
+fn figures(scenes: &[SceneCrowds]) -> Vec<CrowdRow> {
     scenes.iter().flat_map(measure::crowd_rows).collect()
 }
 
@@ -92,32 +82,17 @@ fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 2] {
     [("--csv", arguments.csv.as_ref()), ("--json", arguments.json.as_ref())]
 }
 
-/// Where the results go, opened before any work is done for nothing.
-struct Files {
-    csv: Option<Output>,
-    json: Option<Output>,
-    /// Whether the report has standard output for itself.
-    report_on_stdout: bool,
+/// Opens the files for the results of a crowd, of which there is no figure.
+fn results(arguments: &Measure) -> Result<Results, Failure> {
+    if arguments.svg.is_some() {
+        return Err(Failure::Usage("--svg draws no crowds; write them with --csv or --json".into()));
+    }
+    Results::open([&arguments.csv, &None, &arguments.json])
 }
 
-impl Files {
-    fn open(arguments: &Measure) -> Result<Files, Failure> {
-        if arguments.svg.is_some() {
-            return Err(Failure::Usage("--svg draws no crowds; write them with --csv or --json".into()));
-        }
-        let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
-        let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
-        Ok(Files { csv: open(&arguments.csv)?, json: open(&arguments.json)?, report_on_stdout: !taken })
-    }
-
-    fn write<R: Row>(self, rows: &[R], scenes: &[SceneCrowds]) -> Result<(), Failure> {
-        for (format, file) in [(Format::Csv, self.csv), (Format::JsonLines, self.json)] {
-            let Some(file) = file else { continue };
-            let mut table = Table::new::<R>(format, file)?;
-            rows.iter().try_for_each(|row| table.write(row))?;
-            table.finish()?.finish()?;
-        }
-        let text: Vec<String> = scenes.iter().map(measure::crowd_report).collect();
-        Output::report(&text.join("\n"), self.report_on_stdout)
-    }
+fn write<R: Row>(mut results: Results, rows: &[R], scenes: &[SceneCrowds]) -> Result<(), Failure> {
+    results.table::<R>(Format::Csv, rows)?;
+    results.table::<R>(Format::JsonLines, rows)?;
+    let text: Vec<String> = scenes.iter().map(measure::crowd_report).collect();
+    results.report(&text.join("\n"))
 }

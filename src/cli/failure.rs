@@ -11,9 +11,9 @@ use crate::printable;
 const FAILED: u8 = 1;
 /// Exit code of wrong usage; clap's own.
 const USAGE: u8 = 2;
-/// Added to a signal's number, as shells do.
+/// What is added to a signal's number, as shells do.
 const SIGNALLED: u8 = 128;
-/// A reader that has gone is SIGPIPE to every other tool; ours ends with the code that they end with.
+/// Number of SIGPIPE: a reader that has gone ends every other tool by it, and ours with that code.
 const SIGPIPE: u8 = 13;
 
 /// How a command ended other than well.
@@ -25,7 +25,7 @@ pub(super) enum Failure {
     Failed(String),
     /// The work could not be done, and the reasons are printed already.
     Told,
-    /// An input is none, and what is wrong with it is printed already.
+    /// An input is not what it should be, and what is wrong with it is printed already.
     BadInput,
     /// The options are each right, but not together: one full sentence.
     Usage(String),
@@ -45,7 +45,7 @@ impl From<io::Error> for Failure {
 }
 
 impl Failure {
-    /// Prints the line that belongs to it on stderr, if one does; the exit code.
+    /// Prints the line that belongs to the failure on stderr, if one does; the exit code.
     pub(super) fn report(self) -> ExitCode {
         match self {
             Failure::Clap(error) => explain(error),
@@ -64,7 +64,7 @@ fn say(sentence: &str, code: u8) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// One line on stderr. If it cannot be read, the exit code still tells.
+/// Prints one line on stderr. If it cannot be read, the exit code still tells.
 pub(super) fn note(sentence: &str) {
     let _ = writeln!(io::stderr(), "carom: {}", printable::escaped(sentence));
 }

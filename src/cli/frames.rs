@@ -6,7 +6,7 @@ use crate::physics::{Progress, Simulation, Until};
 use crate::recording::{Change, Recording};
 use crate::scene;
 
-/// One frame further; false if the run cannot go on.
+/// Advances a run by one frame; false if it cannot go on.
 pub(super) fn next_frame(run: &mut Simulation, signals: &Signals) -> Result<bool, Failure> {
     loop {
         signals.check()?;
@@ -21,8 +21,8 @@ pub(super) fn next_frame(run: &mut Simulation, signals: &Signals) -> Result<bool
     }
 }
 
-/// One frame further in a recorded run, its changes made where they were; `left`: those that are still to be made. False if the run
-/// cannot go on.
+/// Advances a recorded run by one frame, its changes made where they were; `left` are those still to be made. False if the
+/// run cannot go on.
 pub(super) fn next_recorded(run: &mut Simulation, left: &mut &[Change], signals: &Signals) -> Result<bool, Failure> {
     let frame = run.tallies().frames;
     let mut make = |run: &mut Simulation, stalled: bool| match left.split_first() {

@@ -2,18 +2,16 @@
 
 use std::ffi::OsStr;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::thread;
 
 use super::accuracy::from_its_start;
 use super::arguments::Judge;
 use super::failure::Failure;
-use super::output::Output;
+use super::results::{Results, jobs, rows};
 use super::signals::Signals;
-use super::target::{Target, refuse_shared};
-use crate::export::Columns;
-use crate::export::{Format, MarkRow, States, Table, read_crowd};
+use super::target::refuse_shared;
+use crate::export::{Columns, Format, MarkRow, States, read_crowd};
 use crate::marks::{self, Exam, Mark, Marked, NoMark, Norm, Source};
 use crate::printable;
 use crate::scene;
@@ -35,18 +33,17 @@ pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure>
     opened.path.iter().try_for_each(|path| refuse_shared(&outputs, &[("the scene", path)]))?;
     from_its_start(&opened.scene, "judge")?;
     let norm = arguments.crowd.as_ref().map(|table| norm(table, &opened.key)).transpose()?;
-    let files = Files::open(arguments)?;
+    let results = Results::open([&None, &arguments.svg, &arguments.json])?;
     let go_on = || signals.check().is_ok();
     let until = arguments.until.unwrap_or(opened.scene.duration);
     let interrupted = || signals.check().err().unwrap_or(Failure::Told);
     let exam = Exam::new(&opened.scene, until, arguments.tolerance, &go_on).ok_or_else(interrupted)?.beside(norm);
-    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let marked = marks::mark_all(arguments.files.len(), jobs, |index| {
+    let marked = marks::mark_all(arguments.files.len(), jobs(arguments.jobs), |index| {
         let word = &arguments.files[index];
         (printable::name(word), mark(&exam, word, arguments, &go_on))
     });
     let marked = marked.ok_or_else(interrupted)?;
-    files.write(&exam, &opened.key, arguments, &marked)?;
+    write(results, arguments, (&exam, &opened.key), &marked)?;
     if marked.iter().any(|marked| marked.mark.is_err()) {
         return Err(Failure::BadInput);
     }
@@ -57,9 +54,7 @@ pub(super) fn judge(arguments: &Judge, signals: &Signals) -> Result<(), Failure>
 /// What the table of a crowd says of a scene.
 fn norm(table: &OsStr, key: &str) -> Result<Norm, Failure> {
     let name = printable::name(table);
-    let text = scene::contents(Path::new(table), "the table of a crowd").map_err(|message| format!(" {message}"));
-    let rows = text.and_then(|text| read_crowd(text.as_slice()).map_err(|error| error.to_string()));
-    let rows = rows.map_err(|error| Failure::Usage(format!("{name}:{error}")))?;
+    let rows = rows(Path::new(table), "the table of a crowd", |text| read_crowd(text)).map_err(Failure::Usage)?;
     let lacks =
         || format!("{name}: no setting of {key} is there that others are held against; make it by measure --crowd");
     Norm::of(rows.iter().map(|(_, row)| row), key).ok_or_else(|| Failure::Usage(lacks()))
@@ -102,36 +97,19 @@ fn source(word: &OsStr, columns: &Columns, spheres: usize) -> Result<Source, cra
     States::new(reader, columns, spheres)
 }
 
-/// Where the results go, opened before any work is done for nothing.
-struct Files {
-    json: Option<Output>,
-    svg: Option<Output>,
-    /// Whether the report has standard output for itself.
-    report_on_stdout: bool,
-}
-
-impl Files {
-    fn open(arguments: &Judge) -> Result<Files, Failure> {
-        let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
-        let taken = [&arguments.json, &arguments.svg].into_iter().flatten().any(Target::is_stdout);
-        Ok(Files { json: open(&arguments.json)?, svg: open(&arguments.svg)?, report_on_stdout: !taken })
+fn write(
+    mut results: Results,
+    arguments: &Judge,
+    (exam, scene): (&Exam, &str),
+    marked: &[Marked],
+) -> Result<(), Failure> {
+    let other = arguments.against.as_ref().map(|word| printable::name(word));
+    let rows = marked.iter().map(|marked| marks::row(exam, other.is_none(), marked));
+    results.table::<MarkRow>(Format::JsonLines, rows)?;
+    results.figure(|| marks::figure(exam, scene, other.as_deref(), marked))?;
+    let mut text = marks::report(exam, scene, other.as_deref(), marked);
+    if !arguments.dt.is_empty() {
+        text = text + "\n" + &marks::order(&arguments.dt, marked);
     }
-
-    fn write(self, exam: &Exam, scene: &str, arguments: &Judge, marked: &[Marked]) -> Result<(), Failure> {
-        let other = arguments.against.as_ref().map(|word| printable::name(word));
-        if let Some(json) = self.json {
-            let mut table = Table::new::<MarkRow>(Format::JsonLines, json)?;
-            marked.iter().try_for_each(|marked| table.write(&marks::row(exam, other.is_none(), marked)))?;
-            table.finish()?.finish()?;
-        }
-        if let Some(mut svg) = self.svg {
-            svg.write_all(marks::figure(exam, scene, other.as_deref(), marked).as_bytes())?;
-            svg.finish()?;
-        }
-        let mut text = marks::report(exam, scene, other.as_deref(), marked);
-        if !arguments.dt.is_empty() {
-            text = text + "\n" + &marks::order(&arguments.dt, marked);
-        }
-        Output::report(&text, self.report_on_stdout)
-    }
+    results.report(&text)
 }

@@ -1,10 +1,10 @@
-//! What watches a run of `carom run`: always the watch, and with `--check` the judge, to which every frame is shown. Neither
-//! changes a bit of the run; the judge only costs time.
+//! What watches a run of `carom run`: always the watch, and with `--check` the judge, to which every frame is shown.
+//! Neither changes a bit of the run; the judge only costs time.
 
 use crate::audit::{Judge, Watch};
 use crate::physics::{Contact, Progress, Simulation, State, Until};
 
-/// Findings that are told one by one.
+/// Most findings that are told one by one.
 const TOLD: usize = 10;
 
 /// The watch, and the judge if it was asked for.
@@ -20,7 +20,7 @@ pub(super) struct Jury {
 }
 
 impl Jury {
-    /// For a simulation that has just begun.
+    /// The jury of a simulation that has just begun.
     pub(super) fn new(simulation: &Simulation, until: f64, check: bool) -> Jury {
         let judge = check.then(|| Judge::of(simulation));
         Jury { watch: Watch::new(simulation), judge, until, fresh: false, events: Vec::new() }
@@ -53,7 +53,7 @@ impl Jury {
         self.events.clear();
     }
 
-    /// The last state of the run.
+    /// Judges the last state of the run.
     pub(super) fn close(&mut self, simulation: &Simulation, end: &State) {
         let end = (end, simulation.hidden_energy_at(end));
         self.watch.state(simulation.model(), end, 0);
@@ -62,7 +62,7 @@ impl Jury {
         }
     }
 
-    /// What the closing line says of it: empty if nothing is wrong and no check was asked for.
+    /// What the closing line says of the findings: empty if nothing is wrong and no check was asked for.
     pub(super) fn words(&self) -> String {
         let alarm = self.watch.alarm();
         let alarm = if alarm.is_silent() { String::new() } else { format!(" alarm={}", alarm.words()) };

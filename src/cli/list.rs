@@ -14,7 +14,7 @@ pub(super) fn list() -> Result<(), Failure> {
     out.finish()
 }
 
-/// (name, about) of every built-in scene.
+/// Name and `about` of every built-in scene.
 fn entries() -> Result<Vec<(&'static str, String)>, Failure> {
     let about = |name| scene::open(name).map(|opened| opened.scene.about.clone());
     let entries = builtin::ALL.iter().map(|scene| about(scene.name).map(|about| (scene.name, about)));

@@ -1,16 +1,15 @@
 //! `carom measure SCENE…`: what accuracy costs, as a table, a chart, CSV and a figure.
 
-use std::io::Write;
+use std::path::PathBuf;
 use std::thread;
 
-use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::{Failure, note};
-use super::output::Output;
-use super::progress::{STEPS, progress_bar};
+use super::progress::{self, STEPS};
+use super::results::{Results, jobs, rows, scenes};
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
-use crate::export::{Format, Table, TradeNote, TradeRow, read_trade};
+use crate::export::{Format, TradeNote, TradeRow, read_trade};
 use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
 use crate::printable;
 use crate::scene::{self, Method, Opened};
@@ -25,10 +24,10 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
     if super::crowd::are_parts(&arguments.merge) {
         return super::crowd::merge(arguments);
     }
-    let files = Files::open(arguments)?;
+    let results = Results::open([&arguments.csv, &arguments.svg, &arguments.json])?;
     if !arguments.merge.is_empty() {
         let rows = measure::merge(read_all(&arguments.merge)?).map_err(|error| Failure::Failed(error.to_string()))?;
-        return files.write(&rows, arguments, &[]);
+        return write(results, arguments, &rows, &[]);
     }
     let measured = sweep(arguments, signals)?;
     let (interrupted, done) = (signals.check(), measured.rows.len());
@@ -36,7 +35,7 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
         note(&format!("interrupted: none of {} settings is done; nothing is written", measured.wanted));
         return interrupted;
     }
-    files.write(&measured.rows, arguments, &measured.yardsticks)?;
+    write(results, arguments, &measured.rows, &measured.yardsticks)?;
     if interrupted.is_err() {
         note(&format!("interrupted: {done} of {} settings are done and kept", measured.wanted));
     }
@@ -66,20 +65,15 @@ fn ladder(arguments: &Measure) -> Ladder {
 }
 
 fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
-    let opened = arguments.scenes.iter().map(scene::open).collect::<Result<Vec<_>, _>>();
-    let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
-    opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
-    let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
-    refuse_shared(&outputs(arguments), &inputs)?;
+    let opened = scenes(&arguments.scenes, &outputs(arguments))?;
     let ladder = ladder(arguments);
     opened.iter().filter_map(|opened| endless(opened, &ladder)).for_each(|warning| note(&warning));
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
     let sweep = Sweep::new(scenes, ladder, arguments.shard.unwrap_or(Shard::WHOLE));
     let sweep = sweep.map_err(|error| Failure::Failed(error.to_string()))?;
     let sweep = sweep.with_timeout(arguments.timeout.unwrap_or(f64::INFINITY)).asking(arguments.error);
-    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let bar = progress_bar(sweep.wanted(), "settings");
-    let measured = sweep.run(jobs, &|| signals.check().is_ok(), &|Advance { done, share }| {
+    let bar = progress::counting(sweep.wanted(), "settings");
+    let measured = sweep.run(jobs(arguments.jobs), &|| signals.check().is_ok(), &|Advance { done, share }| {
         bar.set_message(done.to_string());
         bar.set_position((share * STEPS) as u64);
     });
@@ -96,54 +90,26 @@ fn endless(opened: &Opened, ladder: &Ladder) -> Option<String> {
     Some(format!("{}: {warning}", opened.key))
 }
 
-/// Where the results go, opened before any work is done for nothing.
-struct Files {
-    csv: Option<Output>,
-    svg: Option<Output>,
-    json: Option<Output>,
-    /// Whether the report has standard output for itself.
-    report_on_stdout: bool,
-}
-
-impl Files {
-    fn open(arguments: &Measure) -> Result<Files, Failure> {
-        let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
-        let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
-        let (csv, svg, json) = (open(&arguments.csv)?, open(&arguments.svg)?, open(&arguments.json)?);
-        Ok(Files { csv, svg, json, report_on_stdout: !taken })
-    }
-
-    fn write(self, rows: &[TradeRow], arguments: &Measure, yardsticks: &[Yardstick]) -> Result<(), Failure> {
-        let (allowed, axes) = (&allowed(arguments)[..], Axes { x: arguments.x, y: arguments.y });
-        let (machine, command) = (machine(), command());
-        if let Some(json) = self.json {
-            let mut table = Table::new::<TradeNote>(Format::JsonLines, json)?;
-            rows.iter().try_for_each(|row| table.write(&TradeNote::of(row, &machine)))?;
-            table.finish()?.finish()?;
-        }
-        if let Some(csv) = self.csv {
-            let mut table = Table::new::<TradeRow>(Format::Csv, csv)?;
-            rows.iter().try_for_each(|row| table.write(row))?;
-            table.finish()?.finish()?;
-        }
-        if let Some(mut svg) = self.svg {
-            svg.write_all(measure::figure(rows, allowed, axes, &format!("{command}; {machine}")).as_bytes())?;
-            svg.finish()?;
-        }
-        let text = measure::report(rows, allowed, yardsticks, axes);
-        Output::report(&text, self.report_on_stdout)
-    }
+fn write(
+    mut results: Results,
+    arguments: &Measure,
+    rows: &[TradeRow],
+    yardsticks: &[Yardstick],
+) -> Result<(), Failure> {
+    let (allowed, axes) = (&allowed(arguments)[..], Axes { x: arguments.x, y: arguments.y });
+    let (machine, command) = (machine(), command());
+    results.table::<TradeNote>(Format::JsonLines, rows.iter().map(|row| TradeNote::of(row, &machine)))?;
+    results.table::<TradeRow>(Format::Csv, rows)?;
+    results.figure(|| measure::figure(rows, allowed, axes, &format!("{command}; {machine}")))?;
+    results.report(&measure::report(rows, allowed, yardsticks, axes))
 }
 
 /// The rows of all files, each with its place.
-fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
+fn read_all(paths: &[PathBuf]) -> Result<Vec<Placed>, Failure> {
     let mut all = Vec::new();
     for path in paths {
-        let name = printable::name(path.as_os_str());
-        let text = scene::contents(path, "the CSV of a part").map_err(|message| format!(" {message}"));
-        let rows = text.and_then(|text| read_trade(text.as_slice()).map_err(|error| error.to_string()));
-        let rows = rows.map_err(|error| Failure::Failed(format!("{name}:{error}")))?;
-        all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
+        let read = rows(path, "the CSV of a part", |text| read_trade(text)).map_err(Failure::Failed)?;
+        all.extend(read.into_iter().map(|(place, row)| Placed { place, row }));
     }
     Ok(all)
 }

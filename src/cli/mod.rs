@@ -10,6 +10,7 @@
 //! | `output` | standard output and files that are replaced as a whole |
 //! | `jury` | what watches and judges a run of `carom run` |
 //! | `progress` | how far work is that may take minutes |
+//! | `results` | what the commands that measure read and write |
 //! | `place` | which file a word leads to |
 //! | `target` | a FILE of the command line, and that no output destroys another or an input |
 //! | `rows` | how many rows a run is asked for |
@@ -44,6 +45,7 @@ mod progress;
 mod record;
 mod render;
 mod replay;
+mod results;
 mod rows;
 mod run;
 mod show;

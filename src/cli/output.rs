@@ -25,7 +25,7 @@ enum Sink {
     Stdout(Stdout),
     /// A pipe or device: nothing to replace.
     Stream(File),
-    /// Becomes the file of that name.
+    /// A file beside the target, which becomes the file of that name.
     Replacement(NamedTempFile, PathBuf),
 }
 

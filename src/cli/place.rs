@@ -14,15 +14,15 @@ use std::path::{Path, PathBuf};
 
 use rustix::io::Errno;
 
-/// Links that lead to links are followed so many times, as Linux does.
+/// Most links that lead to links that are followed, as many as by Linux.
 const MOST_LINKS: usize = 40;
 
 /// Where bytes end up.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Place {
-    /// What exists, by device and number.
+    /// A file that exists, by device and number.
     There(u64, u64),
-    /// What does not exist yet: its folder, by device and number, and its name.
+    /// A file that does not exist yet: its folder, by device and number, and its name.
     New(u64, u64, OsString),
     /// The null device, which any number of outputs may share.
     Nowhere,
@@ -62,7 +62,7 @@ impl Place {
     }
 }
 
-/// Where a file of that name will be: the links that lead to nothing yet are followed.
+/// The path of a file of that name once it exists: the links that lead to nothing yet are followed.
 ///
 /// # Errors
 /// If they go in a circle.

@@ -5,7 +5,7 @@ use super::failure::{Failure, note};
 use crate::format;
 use crate::scene::Scene;
 
-/// So many rows of states are written without a question, some ten gigabytes of CSV.
+/// Most rows of states that are written without a question, some ten gigabytes of CSV.
 const MANY: f64 = 1e8;
 
 /// Refuses more rows, up to `until` (s), than any disk is meant to take, unless they are wanted; then says how many come.

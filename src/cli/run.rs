@@ -1,8 +1,8 @@
 //! `carom run`: a run without a screen. Rows go out as they come, so a long run takes no more memory than a short one.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::accuracy;
 use super::arguments::Run;
@@ -10,6 +10,7 @@ use super::certified::{self, Certified};
 use super::failure::{Failure, note};
 use super::jury::Jury;
 use super::output::Output;
+use super::progress::{self, STEPS};
 use super::rows::refuse_too_many;
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
@@ -17,9 +18,6 @@ use crate::certify::Certificate;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 use crate::scene;
-
-/// Steps of the progress bar: finer than any terminal shows.
-const STEPS: f64 = 1000.0;
 
 pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
     let outputs = [("--states", arguments.states.as_ref()), ("--events", arguments.events.as_ref())];
@@ -47,7 +45,7 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
         events: table::<EventRow>(arguments.events.as_ref())?,
         impacts: 0,
         signals,
-        progress: progress_bar(),
+        progress: progress::bar(STEPS as u64, "{bar:40} {percent:>3} %  {elapsed} elapsed, {eta} to go"),
     };
     recorder.simulation.record_events(true);
     let stall = recorder.record(arguments.every)?;
@@ -63,17 +61,6 @@ fn table<R: Row>(target: Option<&Target>) -> Result<Option<Table<Output>>, Failu
         Target::File(path) => Format::of(&path.to_string_lossy()),
     };
     Ok(Some(Table::new::<R>(format, Output::open(target)?)?))
-}
-
-/// On stderr; indicatif draws nothing where that is no terminal.
-fn progress_bar() -> ProgressBar {
-    let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-    if dumb || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed} elapsed, {eta} to go");
-    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), ProgressDrawTarget::stderr());
-    style.map(|style| bar.clone().with_style(style)).unwrap_or(bar)
 }
 
 /// A run being written down.
@@ -119,7 +106,8 @@ impl Recorder<'_> {
         Ok(None)
     }
 
-    /// The last frame may reach beyond the end of the run: what happens there belongs to no row.
+    /// Writes the events up to the end of the run: the last frame may reach beyond it, and what happens there belongs to no
+    /// row.
     fn write_events(&mut self) -> Result<(), Failure> {
         let events = self.simulation.take_events();
         self.jury.judge(&self.simulation, &events);
@@ -176,7 +164,8 @@ fn unsolved(tallies: &Tallies) -> Option<String> {
     })
 }
 
-/// 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding grows (s).
+/// The times of states, s: 0, every k · `every` below `until`, and `until`. Multiplied, not summed, so that no rounding
+/// grows.
 fn sample_times(until: f64, every: Option<f64>) -> impl Iterator<Item = f64> {
     let every = every.unwrap_or(until);
     (0_u64..).map(move |k| k as f64 * every).take_while(move |time| *time < until).chain(std::iter::once(until))

@@ -24,7 +24,7 @@ impl From<OsString> for Target {
 }
 
 impl Target {
-    /// Where it is, whatever it was called; none if it leads nowhere.
+    /// The place that the target leads to; none if it leads nowhere.
     pub(super) fn place(&self) -> Option<Place> {
         match self {
             Target::Stdout => Place::of_open(io::stdout()),
@@ -32,13 +32,13 @@ impl Target {
         }
     }
 
-    /// Whether it is standard output, by whatever name (`/dev/stdout`, the file into which the shell sends it).
+    /// Whether the target is standard output, by whatever name (`/dev/stdout`, the file into which the shell sends it).
     pub(super) fn is_stdout(&self) -> bool {
         let alike = |place| place != Place::Nowhere && Some(place) == Place::of_open(io::stdout());
         *self == Target::Stdout || self.place().is_some_and(alike)
     }
 
-    /// What it was called, as it may be printed.
+    /// The target as it was named, printable.
     pub(super) fn name(&self) -> String {
         match self {
             Target::Stdout => "-".into(),

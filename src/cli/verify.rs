@@ -1,15 +1,16 @@
 //! `carom verify`: known results of physics and mathematics, measured here; rows go out as they are found.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::arguments::Verify;
 use super::failure::Failure;
 use super::output::Output;
+use super::progress;
 use super::signals::Signals;
 use crate::measure::verify::{self, CHECKS, Depth, Outcome, Row, Runner, Trouble, table};
 
@@ -47,7 +48,11 @@ impl Book {
         out.write_all(table::head().as_bytes())?;
         out.flush()?;
         let waiting = CHECKS.iter().map(|_| None).collect();
-        Ok(Book { out, bar: progress_bar(), waiting, next: 0, tally: Tally::default() })
+        let bar = progress::bar(CHECKS.len() as u64, "{bar:32} {pos} of {len} checks, {elapsed} elapsed");
+        if !bar.is_hidden() {
+            bar.tick();
+        }
+        Ok(Book { out, bar, waiting, next: 0, tally: Tally::default() })
     }
 
     fn enter(&mut self, outcome: Outcome) -> Result<(), Failure> {
@@ -80,7 +85,7 @@ fn text(index: usize, found: &Result<Vec<Row>, Trouble>) -> String {
     }
 }
 
-/// Rows, and those that fail. A check without a result is a row that fails.
+/// Numbers of rows and of those that fail. A check without a result is a row that fails.
 #[derive(Debug, Default)]
 struct Tally {
     rows: usize,
@@ -108,19 +113,6 @@ impl Tally {
             }
         }
     }
-}
-
-/// On stderr; indicatif draws nothing where that is no terminal.
-fn progress_bar() -> ProgressBar {
-    let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-    if dumb || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:32} {pos} of {len} checks, {elapsed} elapsed");
-    let bar = ProgressBar::with_draw_target(Some(CHECKS.len() as u64), ProgressDrawTarget::stderr());
-    let bar = style.map(|style| bar.clone().with_style(style)).unwrap_or(bar);
-    bar.tick();
-    bar
 }
 
 #[cfg(test)]

@@ -24,4 +24,4 @@ pub use defaults::defaults;
 pub use open::{open, parse};
 pub use place::{VARIABLE, default_path};
 pub use settings::{Config, FIRST};
-pub use values::bandwidth;
+pub use values::{NoBandwidth, bandwidth};

@@ -1,5 +1,7 @@
 //! Ranges as types: a value that exists is allowed.
 
+use std::{error::Error, fmt};
+
 use serde::Deserialize;
 
 use super::settings::FASTEST;
@@ -140,11 +142,23 @@ impl TryFrom<String> for Bandwidth {
 /// The bandwidth of a line of which nothing is spared.
 pub(super) const UNLIMITED: &str = "unlimited";
 
+/// A text that is no bandwidth; it prints what is allowed, a sentence without its subject.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NoBandwidth;
+
+impl fmt::Display for NoBandwidth {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("must be a whole number of bytes per second from 1, such as 64k or 2M")
+    }
+}
+
+impl Error for NoBandwidth {}
+
 /// Bytes per second: a whole number from 1, k for thousands, M for millions.
 ///
 /// # Errors
-/// What is allowed, a sentence without its subject.
-pub fn bandwidth(text: &str) -> Result<u64, String> {
+/// The text is no such number.
+pub fn bandwidth(text: &str) -> Result<u64, NoBandwidth> {
     let (digits, unit) = match text.as_bytes().last() {
         Some(b'k' | b'K') => (&text[..text.len() - 1], 1_000),
         Some(b'm' | b'M') => (&text[..text.len() - 1], 1_000_000),
@@ -152,7 +166,7 @@ pub fn bandwidth(text: &str) -> Result<u64, String> {
     };
     let whole = digits.bytes().all(|byte| byte.is_ascii_digit()).then(|| digits.parse::<u64>().ok()).flatten();
     let bytes = whole.and_then(|count| count.checked_mul(unit)).filter(|bytes| *bytes > 0);
-    bytes.ok_or("must be a whole number of bytes per second from 1, such as 64k or 2M".into())
+    bytes.ok_or(NoBandwidth)
 }
 
 /// A colour; `None`: chosen by the background.

@@ -4,11 +4,11 @@ use super::line::Line;
 use crate::format::{number, significant};
 use crate::snapshot::{Approach, Shape};
 
-/// Digits after the first.
+/// Digits after the first that a number is written with.
 const DIGITS: usize = 4;
 
-/// A root is the contact's if it is as close to its time, as a part of it: what rounding and a touch that is held back
-/// differ by.
+/// Largest difference between a contact's time and its root, as a part of the time: what rounding and a touch that is held
+/// back differ by.
 const CLOSE: f64 = 1e-6;
 
 /// The lines of an approach.
@@ -45,7 +45,7 @@ fn which(approach: &Approach, roots: &[f64], tau: f64) -> String {
     format!("τ = {} s, {why}", significant(tau, DIGITS))
 }
 
-/// `0.512 − 1.2 τ − 4.9 τ²`.
+/// The polynomial of an approach in words: `0.512 − 1.2 τ − 4.9 τ²`.
 fn polynomial(c: &[f64; 5]) -> String {
     let powers = ["", " τ", " τ²", " τ³", " τ⁴"];
     let mut text = String::new();

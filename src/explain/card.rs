@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-9;
 pub struct Card {
     /// The two bodies, e.g. `#0 left – wall 2`.
     pub bodies: String,
-    /// What the impact law made of it.
+    /// What the impact law made of the contact.
     pub class: Class,
     /// What there is to say, the most asked for first.
     pub lines: Vec<Line>,
@@ -72,7 +72,7 @@ impl Of<'_> {
         self.snapshot.stage.masses.get(i).copied().unwrap_or(f64::NAN)
     }
 
-    /// What an impulse along the normal changes v_n by is this times as much, kg: m, or m₁ m₂ / (m₁ + m₂).
+    /// Effective mass, kg: an impulse along the normal over the change of v_n, m or m₁ m₂ / (m₁ + m₂).
     fn effective_mass(&self) -> f64 {
         support::effective_mass(self.snapshot, self.contact)
     }
@@ -82,7 +82,7 @@ impl Of<'_> {
         if self.contact.kind == Kind::Wall { law.wall_restitution } else { law.restitution }
     }
 
-    /// What is left of the tangential velocity.
+    /// Share of the tangential velocity that the response leaves.
     fn tangential(&self) -> f64 {
         let rubs = self.contact.class == Class::Collide && self.contact.kind == Kind::Wall;
         if rubs { self.snapshot.stage.law.tangential } else { 1.0 }

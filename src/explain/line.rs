@@ -3,9 +3,9 @@
 /// A line of an explanation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line {
-    /// What it is about, in a word.
+    /// What the line is about, in a word.
     pub label: &'static str,
-    /// What it says.
+    /// What the line says.
     pub text: String,
 }
 

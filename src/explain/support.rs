@@ -3,7 +3,7 @@
 use crate::snapshot::{Class, Contact, Kind, Snapshot};
 
 /// The support force of a resting contact, N, as the mean over the frame; of `moreau` what stops its bodies is in it. None
-/// if it does not rest, or has only just come to rest.
+/// if the contact does not rest, or has only just come to rest.
 pub fn support_force(snapshot: &Snapshot, contact: &Contact) -> Option<f64> {
     let Snapshot { step, slack, method, .. } = *snapshot;
     if contact.class != Class::Rest || step <= 0.0 {
@@ -14,7 +14,7 @@ pub fn support_force(snapshot: &Snapshot, contact: &Contact) -> Option<f64> {
     Some((contact.impulse - stop) / step).filter(|force| !stops && force.is_finite())
 }
 
-/// What an impulse along the normal changes v_n by is this times as much, kg: m, or m₁ m₂ / (m₁ + m₂).
+/// Effective mass of a contact, kg: an impulse along the normal over the change of v_n, m or m₁ m₂ / (m₁ + m₂).
 pub(super) fn effective_mass(snapshot: &Snapshot, contact: &Contact) -> f64 {
     let mass = |i: usize| snapshot.stage.masses.get(i).copied().unwrap_or(f64::NAN);
     match contact.kind {

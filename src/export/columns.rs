@@ -11,7 +11,7 @@ pub(super) const COLUMNS: usize = 8;
 /// What a file calls the columns `time,sphere,x,y,z,vx,vy,vz`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Columns {
-    /// In our order.
+    /// Names that the file has for our columns, in our order.
     pub(super) names: [String; COLUMNS],
 }
 
@@ -45,8 +45,8 @@ impl fmt::Display for ColumnsError {
 impl std::error::Error for ColumnsError {}
 
 impl Columns {
-    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours. Where a row has all
-    /// spheres, `p#=x` says that `p0`, `p1`, … are their x.
+    /// Reads `t=time,px=x`: the file's column `t` holds our `time`, and so on; what is not named is called as ours. Where a
+    /// row has all spheres, `p#=x` says that `p0`, `p1`, … are their x.
     ///
     /// # Errors
     /// A part without `=`, a name that is none of ours, one of ours named twice.

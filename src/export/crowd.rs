@@ -44,23 +44,24 @@ pub struct CrowdRow {
     pub tolerance: Option<f64>,
     /// Runs that were begun.
     pub runs: u64,
-    /// How far all of them came, s.
+    /// Time that all runs reached, s.
     pub reached: f64,
-    /// What it is.
+    /// Name of the figure.
     pub figure: String,
-    /// Its unit; empty if it has none.
+    /// Unit of the figure; empty if it has none.
     pub unit: String,
-    /// Mean over the runs that have it; empty if none has.
+    /// Mean over the runs that have the figure; empty if none has.
     pub mean: Option<f64>,
     /// Standard error of the mean.
     pub standard_error: Option<f64>,
-    /// How many runs have it.
+    /// Number of runs that have the figure.
     pub seeds: u64,
-    /// Whether others are held against this setting.
+    /// Whether other settings are held against this one.
     pub standard: bool,
-    /// Whether it is within three standard errors of that setting.
+    /// Whether the mean is within three standard errors of that of the setting that others are held against.
     pub agrees: Option<bool>,
-    /// Whether it is within three standard errors of the same setting with half the step, if that was measured too.
+    /// Whether the mean is within three standard errors of that of this setting with half the step, if that was measured
+    /// too.
     pub agrees_with_half: Option<bool>,
 }
 
@@ -96,15 +97,15 @@ pub struct CrowdRun {
     pub dt: Option<f64>,
     /// Intersection tolerance, a degree.
     pub tolerance: Option<f64>,
-    /// Which run, from 1.
+    /// Number of the run, from 1.
     pub seed: u64,
-    /// Of how many in all parts.
+    /// Number of runs in all parts.
     pub seeds: u64,
-    /// How far it came, s.
+    /// Time that the run reached, s.
     pub reached: f64,
-    /// Why no further, `stalled` or `spent`; empty if it came to its end.
+    /// Why the run stopped before its end, `stalled` or `spent`; empty if it came to its end.
     pub stopped: String,
-    /// In the order of [`FIGURES`]; empty where the run has no such figure.
+    /// Figures of the run in the order of [`FIGURES`]; empty where it has no such figure.
     pub figures: [Option<f64>; FIGURES.len()],
 }
 

@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::table::Row;
 
-/// A trajectory marked. Nothing: there is no such figure.
+/// A trajectory marked; an empty field where there is no such figure.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct MarkRow {
-    /// The file.
+    /// Name of the file.
     pub file: String,
     /// `passes`, `fails`, `unreadable`, or `marked` where no tolerance was asked for.
     pub verdict: String,
@@ -17,45 +17,45 @@ pub struct MarkRow {
     pub tolerance: Option<f64>,
     /// Up to when `exact` may be held against others, s; none against another file.
     pub horizon: Option<f64>,
-    /// Times in the file, the last of them, s, and the longest time between two, s.
+    /// Number of times in the file.
     pub moments: u64,
-    /// The last time, s.
+    /// Last time in the file, s.
     pub end: f64,
-    /// The longest time between two, s.
+    /// Longest time between two rows of a sphere, s.
     pub spacing: f64,
     /// Up to when positions were compared, s.
     pub compared: f64,
     /// Largest position error, m.
     pub error: Option<f64>,
-    /// When, s.
+    /// Time of the largest position error, s.
     pub error_time: Option<f64>,
-    /// Of which sphere.
+    /// Sphere with the largest position error.
     pub error_sphere: Option<usize>,
     /// How far places between rows of the other file are uncertain, m.
     pub interpolation_error: f64,
     /// `missing`, `late`, `early` or `extra`: the first impact that is wrong.
     pub wrong_impact: Option<String>,
-    /// When, s.
+    /// Time of the first wrong impact, s.
     pub wrong_impact_time: Option<f64>,
-    /// By how much it is late, s; below 0: early.
+    /// By how much the first wrong impact is late, s; below 0: early.
     pub wrong_impact_delay: Option<f64>,
-    /// `wall` or `pair`.
+    /// Kind of the first wrong impact: `wall` or `pair`.
     pub wrong_impact_kind: Option<String>,
-    /// The sphere, and the wall or second sphere.
+    /// Bodies of the first wrong impact: the sphere, and the wall or second sphere.
     pub wrong_impact_bodies: Option<[usize; 2]>,
     /// Impacts found of those of the standard.
     pub impacts_found: Option<usize>,
     /// Impacts of the standard that the rows can show, up to `compared`.
     pub impacts_wanted: Option<usize>,
-    /// Deepest intersection degree in any row; when, s.
+    /// Deepest intersection degree in any row, dimensionless.
     pub deepest_degree: f64,
-    /// When, s.
+    /// Time of the deepest overlap, s.
     pub deepest_time: Option<f64>,
     /// Energy at the first row, J.
     pub energy_start: Option<f64>,
     /// Energy at the last row, J.
     pub energy_end: Option<f64>,
-    /// By how much it rises above the least before, J.
+    /// By how much the energy rises above the least before, J.
     pub energy_rise: Option<f64>,
     /// Largest |E − E_exact|, J.
     pub energy_error: Option<f64>,
@@ -71,7 +71,7 @@ pub struct MarkRow {
     pub unexplained_time: Option<f64>,
     /// The likeliest mistake.
     pub mistake: Option<String>,
-    /// In how many cases it was seen, and of how many.
+    /// In how many cases the mistake was seen, and of how many.
     pub mistake_seen: Option<[u64; 2]>,
     /// Figures of a crowd beside those of many runs; empty if it is held against none.
     pub crowd: Vec<CrowdMark>,
@@ -79,30 +79,30 @@ pub struct MarkRow {
     pub errors: Vec<(f64, f64)>,
 }
 
-/// A figure of a crowd beside that of many runs. Nothing: one of them does not tell.
+/// A figure of a crowd beside that of many runs; an empty field where one of them does not tell.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct CrowdMark {
-    /// What it is.
+    /// Name of the figure.
     pub figure: String,
-    /// Its unit; empty if it has none.
+    /// Unit of the figure; empty if it has none.
     pub unit: String,
-    /// Of the trajectory.
+    /// Value of the figure in the trajectory.
     pub value: Option<f64>,
-    /// Mean of the runs.
+    /// Mean of the figure over the runs.
     pub mean: Option<f64>,
-    /// Standard deviation of a run.
+    /// Standard deviation of the figure of a run.
     pub deviation: Option<f64>,
-    /// How many runs.
+    /// Number of runs.
     pub seeds: Option<u64>,
-    /// The setting that made them.
+    /// The setting that made the runs.
     pub by: Option<String>,
-    /// By how many deviations of one more run the trajectory is from the mean.
+    /// Distance of the trajectory from the mean, in deviations of one more run.
     pub apart: Option<f64>,
-    /// Whether that is no more than three.
+    /// Whether `apart` is no more than three.
     pub agrees: Option<bool>,
 }
 
 impl Row for MarkRow {
-    /// A row holds a list: it is written as JSON only.
+    /// No columns: a row holds a list, and is written as JSON only.
     const COLUMNS: &'static [&'static str] = &[];
 }

@@ -14,7 +14,7 @@ pub struct Note {
     pub doubts: Vec<String>,
 }
 
-/// Between the phrases of a cell.
+/// What stands between the phrases of a cell.
 const BETWEEN: &str = "; ";
 
 /// How the phrase of a run that stopped before its end begins.

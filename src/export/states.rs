@@ -11,8 +11,8 @@ use super::trade::{CELL, ReadError, explain};
 use super::wide::{Wide, wide};
 use crate::printable;
 
-/// Longest line that is read, bytes, and more for each sphere, whose six numbers may stand in it: a file without line ends must not
-/// fill the memory.
+/// Longest line that is read, bytes, and more for each sphere, whose six numbers may stand in it: a file without line ends
+/// must not fill the memory.
 const LINE: (usize, usize) = (1 << 16, 6 * 32);
 
 /// What stands between two cells: the first of these that comes most often in the first line.
@@ -21,9 +21,9 @@ const DELIMITERS: [u8; 3] = [b',', b';', b'\t'];
 /// All spheres at one time, as a file has them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moment {
-    /// When, s.
+    /// Time of the moment, s.
     pub time: f64,
-    /// Line of its first row, from 1.
+    /// Line of the moment's first row, from 1.
     pub line: u64,
     /// Centres, m, by sphere index.
     pub x: Vec<DVec3>,
@@ -38,9 +38,9 @@ pub struct States<R: Read> {
     record: csv::StringRecord,
     /// Which cell of a row holds each of our columns.
     cells: [Option<usize>; COLUMNS],
-    /// The same, if a row has all spheres.
+    /// Which cell of a row holds which number of which sphere, if a row has all spheres; else none.
     wide: Option<Wide>,
-    /// Cells of a row.
+    /// Number of cells of a row.
     width: usize,
     spheres: usize,
     /// The first row of the next moment.
@@ -50,7 +50,7 @@ pub struct States<R: Read> {
     last: Option<f64>,
 }
 
-/// A row.
+/// A row of a file: one sphere at one time.
 #[derive(Debug, Clone, Copy)]
 struct Found {
     line: u64,
@@ -61,8 +61,8 @@ struct Found {
 }
 
 impl<R: Read> States<R> {
-    /// Reads the first line. The file has rows of so many spheres; without a column `sphere` of one, or of all in columns that are
-    /// numbered.
+    /// Reads the first line. The file has rows of so many spheres; without a column `sphere` of one, or of all in columns
+    /// that are numbered.
     ///
     /// # Errors
     /// A reader that fails, an empty file, a column that is missing.
@@ -202,7 +202,7 @@ impl<R: Read> States<R> {
         }
     }
 
-    /// A row of all spheres.
+    /// Reads a row of all spheres; none at the end of the file.
     fn wide_row(&mut self, wide: &Wide) -> Result<Option<Moment>, ReadError> {
         let Some(line) = self.cells()? else { return Ok(None) };
         let time = in_time(line, self.finite(line, wide.time, StateRow::COLUMNS[0])?)?;

@@ -81,7 +81,7 @@ impl<W: Write> Table<W> {
     }
 }
 
-/// The writer's own error, with its kind: a closed pipe must be told from a full disk.
+/// The error of the writer itself, with its kind: a closed pipe must be told from a full disk.
 fn cause(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,

@@ -26,7 +26,7 @@ pub struct TradeRow {
     pub horizon: Option<f64>,
     /// Up to when the reference is certified to the error asked for, s; empty if it is not `exact`.
     pub certified: Option<f64>,
-    /// How far the reference itself may be off up to there, m: no position error below it means anything.
+    /// Largest error of the reference itself up to `horizon`, m: no position error below it means anything.
     pub floor: Option<f64>,
     /// Largest |x − x_ref| of any sphere at any instant up to the horizon, m.
     pub position_error: Option<f64>,
@@ -34,23 +34,23 @@ pub struct TradeRow {
     pub impact_time_error: Option<f64>,
     /// How many impacts come in the reference's order, from the first on.
     pub common_events: u64,
-    /// |E − E_ref| over the reference's largest |E|.
+    /// |E − E_ref| over the reference's largest |E|, dimensionless.
     pub energy_error: Option<f64>,
-    /// Deepest intersection degree at the end of any frame.
+    /// Deepest intersection degree at the end of any frame, dimensionless.
     pub deepest_degree: f64,
     /// Impacts up to `until`.
     pub impacts: u64,
-    /// Degree evaluations.
+    /// Degree evaluations of the whole run.
     pub evaluations: u64,
     /// Impacts, rests and releases of the whole run.
     pub events: u64,
     /// Frames of the whole run.
     pub frames: u64,
-    /// Thread CPU time per simulated second, s; the best of several.
+    /// Thread CPU time per simulated second, s; the best of several measurements.
     pub cpu_per_s: Option<f64>,
-    /// The median of these.
+    /// Median of the measured CPU times per simulated second, s.
     pub cpu_median: Option<f64>,
-    /// (worst − best) / best of these.
+    /// (worst − best) / best of the measured CPU times, dimensionless.
     pub cpu_spread: Option<f64>,
     /// Reasons to doubt these figures; empty if there are none.
     pub note: Note,
@@ -106,7 +106,7 @@ impl TradeNote {
 }
 
 impl Row for TradeNote {
-    /// Written as JSON only.
+    /// No columns: the row is written as JSON only.
     const COLUMNS: &'static [&'static str] = &[];
 }
 
@@ -123,7 +123,7 @@ pub fn read_trade(reader: impl io::Read) -> Result<Vec<(u64, TradeRow)>, ReadErr
 pub struct ReadError(pub(super) String);
 
 impl ReadError {
-    /// This refusal, with the name of the file before it.
+    /// The refusal with the name of the file before it.
     pub fn of(self, name: &str) -> ReadError {
         ReadError(format!(" {name}:{}", self.0))
     }
@@ -189,12 +189,12 @@ fn read_row<R: Row + DeserializeOwned>(
     }
 }
 
-/// What a terminal would obey in a text, in words.
+/// The first character of a text that is not printable, in words; none if all are.
 fn unseen(text: &str) -> Option<String> {
     text.chars().find(|c| !printable::is_printable(*c)).map(printable::described)
 }
 
-/// What no measure writes, but a file may hold: numbers that are none or negative.
+/// What is wrong with a row that reads but that no measure writes: numbers that are none or negative.
 fn improper(row: &TradeRow) -> Option<String> {
     let numbers = [
         ("tolerance", row.tolerance),

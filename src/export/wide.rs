@@ -25,12 +25,12 @@ pub(super) struct Wide {
 #[derive(Debug, Clone, Copy)]
 struct Numbering {
     style: (&'static str, &'static str),
-    /// The number of the first.
+    /// Number of the first sphere.
     first: usize,
 }
 
 impl Numbering {
-    /// What sphere `i` calls a column.
+    /// The file's name of a column of sphere `i`.
     fn name(&self, column: &str, i: usize) -> String {
         let number = (self.first + i).to_string();
         match column.contains(NUMBER) {

@@ -13,7 +13,7 @@ use crate::printable::is_printable;
 pub(super) struct Glyph<'a> {
     /// Printable text that takes `width` columns.
     pub(super) text: &'a str,
-    /// Columns: 1 or 2, or 0 for the right half of the wide glyph before.
+    /// Width, columns: 1 or 2, or 0 for the right half of the wide glyph before.
     pub(super) width: u16,
     /// Colours and attributes.
     pub(super) pen: Pen,
@@ -31,17 +31,17 @@ impl Glyph<'_> {
         self.text == " " && !self.pen.modifier.intersects(SHOWN_ON_BLANKS)
     }
 
-    /// Whether it looks right if it is written with that pen.
+    /// Whether the glyph looks right if it is written with that pen.
     pub(super) fn suits(&self, pen: &Pen) -> bool {
         self.pen == *pen || self.is_blank() && pen.bg == self.pen.bg && !pen.modifier.intersects(SHOWN_ON_BLANKS)
     }
 
-    /// Whether a terminal that shows `other` shows this too.
+    /// Whether a terminal that shows `other` shows this glyph too.
     pub(super) fn looks_like(&self, other: &Glyph) -> bool {
         self.text == other.text && self.width == other.width && (self.suits(&other.pen) || other.suits(&self.pen))
     }
 
-    /// Whether every terminal agrees on its width: one character, not a cluster of several.
+    /// Whether every terminal agrees on the glyph's width: one character, not a cluster of several.
     pub(super) fn is_simple(&self) -> bool {
         self.text.chars().nth(1).is_none()
     }

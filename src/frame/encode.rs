@@ -16,7 +16,7 @@ use super::{
 /// Blanks at the end of a row from which on erasing is shorter than writing them.
 const ERASE_FROM: usize = 4;
 
-/// So many cells of a row that become blank may be worth erasing the row and writing the others again.
+/// Fewest cells of a row that become blank from which on erasing the row and writing the others again may be worth it.
 const WORTH_ERASING: usize = 8;
 
 /// Turns buffers into bytes; remembers what the terminal shows.
@@ -26,9 +26,9 @@ const WORTH_ERASING: usize = 8;
 pub struct Encoder {
     /// What was encoded last, row by row; `None`: what the terminal shows is unknown.
     sent: Option<Buffer>,
-    /// Where its cursor is shown.
+    /// Where the terminal's cursor is shown.
     cursor: Option<Position>,
-    /// Whether it may know synchronized updates.
+    /// Whether the terminal may know synchronized updates.
     brackets: bool,
 }
 

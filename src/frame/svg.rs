@@ -22,10 +22,10 @@ const HEIGHT: usize = 20;
 /// Diameter of a dot, px, of the 5 px from one to the next.
 const DOT: &str = "3.6";
 
-/// The screen behind everything.
+/// Colour of the screen behind everything.
 const BACKGROUND: &str = "#14161b";
 
-/// Text without a colour of its own.
+/// Colour of text without one of its own.
 const FOREGROUND: &str = "#d8dee9";
 
 /// The terminal's 16 colours, legible on [`BACKGROUND`].
@@ -46,7 +46,7 @@ struct Layer {
     boxes: String,
 }
 
-/// The image of a buffer. Titled by the text of its first row and described by all of it.
+/// The image of a buffer, titled by the text of its first row and described by all of it.
 pub fn svg(buffer: &Buffer) -> String {
     let (columns, rows) = (usize::from(buffer.area().width), usize::from(buffer.area().height));
     let mut backgrounds: BTreeMap<String, String> = BTreeMap::new();
@@ -120,7 +120,7 @@ fn text_style(pen: &Pen) -> String {
     style
 }
 
-/// Whether it is written, not drawn.
+/// Whether the glyph is written, not drawn.
 fn is_text(glyph: &Glyph) -> bool {
     !matches!(glyph.text.chars().next(), None | Some(' ' | '─' | '━' | '┃' | '┈' | '╸' | '\u{2580}'..='\u{259F}' | '\u{2800}'..='\u{28FF}'))
 }
@@ -201,7 +201,7 @@ fn push(path: &mut String, data: std::fmt::Arguments) {
     path.write_fmt(data).expect("writing to memory does not fail");
 }
 
-/// (ink, paper) of a pen, as the reverse attribute leaves them; dim is half way to the paper.
+/// Colours of text and background of a pen, as the reverse attribute leaves them; dim is half way to the background.
 fn colors(pen: &Pen) -> (String, String) {
     let (ink, paper) = (color(pen.fg, FOREGROUND), color(pen.bg, BACKGROUND));
     let (ink, paper) = if pen.modifier.contains(Modifier::REVERSED) { (paper, ink) } else { (ink, paper) };

@@ -8,7 +8,7 @@ use crate::physics::Kind;
 use crate::physics::contact::Key;
 use crate::scene::{ContactLaw, Scene};
 
-/// Up to so many spheres every pair is looked at.
+/// Most spheres of which every pair is looked at.
 const FEW: usize = 16;
 
 /// The bodies of a scene.
@@ -26,9 +26,9 @@ pub(super) struct Bodies {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Touch {
     pub(super) key: Key,
-    /// m; below 0 they overlap.
+    /// Gap, m; below 0 the bodies overlap.
     pub(super) gap: f64,
-    /// Unit, towards the sphere, of a pair towards the first.
+    /// Unit normal, towards the sphere, of a pair towards the first.
     pub(super) normal: DVec3,
     /// Whether the sphere's centre is where s1 × s2 of the wall does not point to.
     pub(super) behind: bool,
@@ -49,7 +49,7 @@ impl Bodies {
         self.walls.len()
     }
 
-    /// Radius, of a pair both, m.
+    /// Radius of the sphere, of a pair the sum of both radii, m.
     pub(super) fn reach(&self, (kind, a, b): Key) -> f64 {
         if kind == Kind::Pair { self.radii[a] + self.radii[b] } else { self.radii[a] }
     }
@@ -59,12 +59,12 @@ impl Bodies {
         if kind == Kind::Wall { self.law.wall_restitution } else { self.law.restitution }
     }
 
-    /// Of two vectors per sphere (velocities, pulls): that of the first relative to the second, or to the wall.
+    /// A vector (velocity, pull) of the first body relative to the second, or to the wall, from those by sphere.
     pub(super) fn relative(&self, (kind, a, b): Key, of: &[DVec3]) -> DVec3 {
         if kind == Kind::Pair { of[a] - of[b] } else { of[a] }
     }
 
-    /// A sphere at `x` (m) and a wall.
+    /// The contact of a sphere at `x` (m) and a wall.
     pub(super) fn at_wall(&self, a: usize, b: usize, x: DVec3) -> Touch {
         let (shape, front) = &self.walls[b];
         let offset = shape.closest(x).offset;
@@ -74,7 +74,7 @@ impl Bodies {
         Touch { key: (Kind::Wall, a, b), gap: distance - self.radii[a], normal, behind }
     }
 
-    /// Two spheres at these places, m.
+    /// The contact of two spheres at these places, m.
     pub(super) fn at_pair(&self, [a, b]: [usize; 2], [x, y]: [DVec3; 2]) -> Touch {
         let arm = x - y;
         let distance = arm.length();
@@ -83,7 +83,7 @@ impl Bodies {
         Touch { key: (Kind::Pair, a, b), gap, normal, behind: false }
     }
 
-    /// Everything at `x` (m by sphere) whose gap is at most `share` of its reach.
+    /// All contacts of spheres at `x` (m by sphere) whose gap is at most `share` of their reach.
     pub(super) fn near(&self, x: &[DVec3], share: f64) -> Vec<Touch> {
         let mut found = Vec::new();
         for (a, x) in x.iter().enumerate() {
@@ -102,7 +102,8 @@ impl Bodies {
         found
     }
 
-    /// Calls `meet` for each pair a < b that may be so near: in the order of the places along x, while they are near there.
+    /// Calls `meet` for each pair a < b that may be as near as `share` of its reach: in the order of the places along x,
+    /// while they are near there.
     fn pairs(&self, x: &[DVec3], share: f64, mut meet: impl FnMut([usize; 2])) {
         if x.len() <= FEW {
             (0..x.len()).for_each(|a| (a + 1..x.len()).for_each(|b| meet([a, b])));
@@ -119,7 +120,8 @@ impl Bodies {
         }
     }
 
-    /// Where the way of a centre from `from` to `to` (m) goes through a wall's face; which wall, first index first.
+    /// The wall of lowest index through whose face the way of a centre from `from` to `to` (m) goes; none if it goes
+    /// through none.
     pub(super) fn passed(&self, from: DVec3, to: DVec3) -> Option<usize> {
         self.walls.iter().position(|(shape, front)| {
             let [start, end] = [from, to].map(|x| front.dot(x - shape.center));
@@ -131,7 +133,7 @@ impl Bodies {
         })
     }
 
-    /// Σ ½ m v² − m pull · x and Σ m v.
+    /// Energy Σ ½ m v² − m pull · x, J, and momentum Σ m v, kg m/s.
     pub(super) fn totals(&self, x: &[DVec3], v: &[DVec3]) -> Totals {
         let of = |i: usize| self.masses[i] * (0.5 * v[i].length_squared() - self.pulls[i].dot(x[i]));
         let momentum = v.iter().zip(&self.masses).map(|(v, mass)| *v * *mass).sum();

@@ -6,13 +6,13 @@ use crate::measure::{Interrupted, side_by_side};
 /// A file and what became of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Marked {
-    /// Its name, printable.
+    /// Name of the file, printable.
     pub name: String,
-    /// Its mark, or why there is none: `line: what is wrong there`.
+    /// Mark of the file, or why there is none: `line: what is wrong there`.
     pub mark: Result<Mark, String>,
 }
 
-/// Marks files 0 to `count` by at most so many threads; none if one was interrupted.
+/// Marks files 0 to `count` by at most `jobs` threads; none if one was interrupted.
 pub fn mark_all(
     count: usize,
     jobs: usize,

@@ -6,11 +6,11 @@ use super::norm::{Beside, Normal};
 use crate::export::{CrowdMark, FIGURES};
 use crate::format;
 
-/// Differences beyond so many deviations are all the same.
+/// Largest difference that is told, in deviations.
 const FAR: f64 = 1000.0;
 
-/// A line for each figure: of the trajectory, mean and deviation of many runs, and whether it may be one of them. Then what is
-/// not known, and why.
+/// A line for each figure: of the trajectory, mean and deviation of many runs, and whether it may be one of them. Then what
+/// is not known, and why.
 pub(super) fn crowd(figures: &[Beside]) -> String {
     if figures.is_empty() {
         return String::new();
@@ -38,7 +38,7 @@ fn verdict(beside: &Beside) -> String {
     }
 }
 
-/// Which runs they are held against.
+/// A sentence on which runs the figures are held against.
 fn settings(figures: &[Beside]) -> String {
     let mut names: Vec<String> = Vec::new();
     for normal in figures.iter().filter_map(|beside| beside.normal.as_ref().filter(|_| beside.value.is_some())) {
@@ -53,7 +53,7 @@ fn settings(figures: &[Beside]) -> String {
     }
 }
 
-/// Figures that the trajectory does not tell.
+/// A sentence on the figures that the trajectory does not tell.
 fn unknown(figures: &[Beside]) -> String {
     let lacking = figures.iter().filter(|beside| beside.value.is_none());
     let names: Vec<&str> = lacking.map(|beside| FIGURES[beside.figure].0).collect();
@@ -78,7 +78,7 @@ fn by(normal: &Normal) -> String {
     format!("{method}{dt}{tolerance}")
 }
 
-/// The same as rows of JSON.
+/// Figures of a crowd as rows of JSON.
 pub(super) fn crowd_marks(figures: &[Beside]) -> Vec<CrowdMark> {
     let of = |beside: &Beside| {
         let (figure, unit, _) = FIGURES[beside.figure];

@@ -15,7 +15,7 @@ use crate::export::{Moment, ReadError};
 use crate::measure::{Deviation, Observables};
 use crate::scene::Scene;
 
-/// Without a tolerance, the error asked for, as a part of the smallest radius.
+/// Error asked for where there is no tolerance, as a part of the smallest radius.
 const ASKED: f64 = 1e-3;
 
 /// The yardstick's own error may be this part of the error asked for.
@@ -28,7 +28,7 @@ pub struct Exam {
     bodies: Bodies,
     /// Largest position error that passes, m; none: there is no verdict.
     pub tolerance: Option<f64>,
-    /// Up to when it was asked to mark, s.
+    /// Time up to which trajectories are marked, s.
     pub until: f64,
     /// Up to when positions are held against `exact`, s: there its own error is a tenth of the tolerance at most.
     pub horizon: f64,
@@ -41,48 +41,49 @@ pub struct Exam {
 /// What a mark says of a trajectory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Times in the file.
+    /// Number of times in the file.
     pub moments: u64,
-    /// The last of them, s.
+    /// Last time in the file, s.
     pub end: f64,
-    /// The longest time between two, s.
+    /// Longest time between two rows of a sphere, s.
     pub spacing: f64,
     /// Up to when positions were compared, s.
     pub compared: f64,
-    /// Largest distance of a sphere from its place, m; when, s; which sphere.
+    /// Largest distance of a sphere from its place, m; its time, s; the sphere.
     pub error: (f64, f64, usize),
     /// The largest distance of a sphere from its place, m, over time, s.
     pub series: Series,
-    /// Where the other trajectory has no row: how far its places are uncertain, m; 0 against `exact`.
+    /// Uncertainty of places between rows of the other trajectory, m; 0 against `exact`.
     pub interpolation: f64,
-    /// Its impacts up to `compared`; none if the file has no velocities.
+    /// Impacts up to `compared`; none if the file has no velocities.
     pub impacts: Option<Impacts>,
     /// The deepest overlap in any row.
     pub deepest: Option<Deepest>,
-    /// Its energy and momentum; none if the file has no velocities.
+    /// Energy and momentum; none if the file has no velocities.
     pub energy: Option<Ledger>,
     /// Largest momentum that an impact of a pair by itself made or lost, as a part of what it exchanged.
     pub imbalance: f64,
     /// When a velocity first changed that neither a contact nor a pull explains, s, and of which sphere.
     pub unexplained: Option<(f64, usize)>,
-    /// Its figures as a crowd beside those of many runs; empty if it is held against none.
+    /// Figures as a crowd beside those of many runs; empty if the trajectory is held against none.
     pub crowd: Vec<Beside>,
     /// The likeliest mistake, if the trajectory is wrong.
     pub mistake: Option<Suspicion>,
-    /// Whether it goes on to the horizon, or to a row before it.
+    /// Whether the trajectory goes on to the horizon, or to a row before it.
     pub complete: bool,
-    /// Whether it passes; none if no tolerance is asked for.
+    /// Whether the trajectory passes; none if no tolerance is asked for.
     pub passes: Option<bool>,
 }
 
 /// Impacts held against those of the standard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impacts {
-    /// The first that is missing, late, early or extra.
+    /// The first impact that is missing, late, early or extra.
     pub first_wrong: Option<WrongImpact>,
-    /// How many were found, of those that can be seen.
+    /// Number of impacts found, of those that can be seen.
     pub found: usize,
-    /// How many can be seen: the spheres of the others meet again within two rows, or so slowly that it may be support.
+    /// Number of impacts that can be seen: the spheres of the others meet again within two rows, or so slowly that it may
+    /// be support.
     pub wanted: usize,
 }
 
@@ -111,12 +112,12 @@ impl Exam {
         Some(Exam { scene: scene.clone(), bodies, tolerance, until, horizon, certificate, norm: None })
     }
 
-    /// The same, with figures of a crowd held against those of many runs.
+    /// The exam with figures of a crowd held against those of many runs.
     pub fn beside(self, norm: Option<Norm>) -> Exam {
         Exam { norm, ..self }
     }
 
-    /// How many spheres a file must have.
+    /// Number of spheres that a file must have.
     pub fn spheres(&self) -> usize {
         self.bodies.radii.len()
     }
@@ -199,7 +200,7 @@ impl Exam {
     }
 }
 
-/// A trajectory on the way.
+/// A trajectory that is being read.
 struct Reading<'a> {
     bodies: &'a Bodies,
     observer: Observer<'a>,

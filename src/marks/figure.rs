@@ -25,7 +25,7 @@ const DASHES: [&str; 2] = ["none", "5 3"];
 /// Errors below are drawn on the lowest line, m.
 const NOTHING: f64 = 1e-16;
 
-/// From time (s) and error (m) to px.
+/// The map from time (s) and error (m) to px.
 struct Axes {
     end: f64,
     low: i32,

@@ -1,4 +1,5 @@
-//! What has happened between two moments: which velocities have changed by more than pulls explain, and which bodies did it.
+//! What has happened between two moments: which velocities have changed by more than pulls explain, and which bodies did
+//! it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,9 +24,9 @@ const BALANCED: f64 = 0.3;
 pub(super) struct Kick {
     /// The contact, with its gap and normal at the time of the kick.
     pub(super) touch: Touch,
-    /// When, s: where the parabolas from before and after come closest.
+    /// Time of the kick, s: where the parabolas from before and after come closest.
     pub(super) time: f64,
-    /// Approach speed before it, m/s.
+    /// Approach speed before the kick, m/s.
     pub(super) approach: f64,
     /// Change of the normal speed, m/s.
     pub(super) jump: f64,
@@ -39,11 +40,11 @@ pub(super) struct Interval<'a> {
     bodies: &'a Bodies,
     pub(super) before: &'a Moment,
     pub(super) after: &'a Moment,
-    /// Its length, s.
+    /// Length of the interval, s.
     pub(super) h: f64,
     /// Changes of velocity that pulls do not explain, m/s by sphere.
     pub(super) changes: Vec<DVec3>,
-    /// Spheres of which that is more than rounding.
+    /// Spheres whose change of velocity is more than rounding.
     pub(super) changed: Vec<usize>,
 }
 
@@ -79,8 +80,8 @@ impl<'a> Interval<'a> {
         if at.is_nan() { 0.0 } else { at.clamp(0.0, self.h) }
     }
 
-    /// Where sphere `i` is at the time `t` (s) within, m: on the parabola from before until the kink, then on that to the next; and
-    /// how far apart both are there, m, by which the place is uncertain.
+    /// Where sphere `i` is at the time `t` (s) within, m: on the parabola from before until the kink, then on that to the
+    /// next; and how far apart both are there, m, by which the place is uncertain.
     pub(super) fn place(&self, i: usize, t: f64) -> (DVec3, f64) {
         let (s, alone) = (t - self.before.time, (Kind::Wall, i, 0));
         let kink = self.kink(alone);
@@ -104,7 +105,8 @@ impl<'a> Interval<'a> {
         Kick { touch, time: self.before.time + s, approach: -v.dot(touch.normal), jump, along }
     }
 
-    /// Each contact that has changed velocities, the likeliest for each sphere; and the spheres that changed with nothing near.
+    /// Each contact that has changed velocities, the likeliest for each sphere; and the spheres that changed with nothing
+    /// near.
     pub(super) fn kicks(&self) -> (Vec<Kick>, Vec<usize>) {
         let mut best: BTreeMap<usize, (f64, Kick)> = BTreeMap::new();
         let mut alone: BTreeSet<usize> = self.changed.iter().copied().collect();

@@ -5,22 +5,22 @@ use glam::DVec3;
 /// What all spheres have at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Totals {
-    /// J.
+    /// Energy, J.
     pub(super) energy: f64,
-    /// kg m/s.
+    /// Momentum, kg m/s.
     pub(super) momentum: DVec3,
 }
 
 /// What became of the energy and the momentum.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ledger {
-    /// At the first row, J.
+    /// Energy at the first row, J.
     pub start: f64,
-    /// At the last row, J.
+    /// Energy at the last row, J.
     pub end: f64,
-    /// By how much it rose above the least before, at most, J.
+    /// Most that the energy rose above the least before, J.
     pub rise: f64,
-    /// When it did, s.
+    /// Time at which it rose so, s.
     pub rise_time: f64,
     /// Largest |E − E_exact| up to the horizon, J; none against another trajectory.
     pub error: Option<f64>,

@@ -54,7 +54,7 @@ impl Mistake {
         }
     }
 
-    /// What it is, as a clause.
+    /// The mistake as a clause.
     pub fn words(self) -> &'static str {
         match self {
             Mistake::PairTwice => "the impulse of a pair acts twice on each ball",
@@ -70,14 +70,14 @@ impl Mistake {
     }
 }
 
-/// What speaks for a mistake: so many of so many.
+/// What speaks for a mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Suspicion {
-    /// Which.
+    /// The mistake.
     pub mistake: Mistake,
-    /// How often it was seen.
+    /// Number of cases in which it was seen.
     pub seen: u64,
-    /// How often it could have been.
+    /// Number of cases in which it could have been seen.
     pub of: u64,
 }
 
@@ -90,22 +90,29 @@ impl fmt::Display for Suspicion {
 /// What was counted in a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Evidence {
-    /// Impacts of pairs by themselves, and those with twice and with half the impulse of the law.
+    /// Impacts of pairs by themselves.
     pub(super) pairs: u64,
+    /// Impacts of pairs by themselves with twice the impulse of the law.
     pub(super) twice: u64,
+    /// Impacts of pairs by themselves with half the impulse of the law.
     pub(super) half: u64,
-    /// Impacts answered, among them those that came a whole step after the bodies overlapped.
+    /// Impacts answered.
     pub(super) answered: u64,
+    /// Impacts answered a whole step after the bodies overlapped.
     pub(super) late: u64,
-    /// Contacts that ended without an answer though the bodies approached in overlap: at a front or of a pair, at a back.
+    /// Contacts at a front or of a pair that ended without an answer though the bodies approached in overlap.
     pub(super) ignored: u64,
+    /// Contacts at a back that ended without an answer though the bodies approached in overlap.
     pub(super) ignored_behind: u64,
     /// Impacts answered at a back.
     pub(super) answered_behind: u64,
-    /// Intervals in which a sphere lay on a wall, those in which it kept sinking, those in which it lost tangential speed.
+    /// Intervals in which a sphere lay on a wall.
     pub(super) rests: u64,
+    /// Intervals in which a sphere that lay on a wall kept sinking.
     pub(super) sinking: u64,
+    /// Intervals in which a sphere slid on a wall.
     pub(super) slides: u64,
+    /// Intervals in which a sphere that slid on a wall lost tangential speed.
     pub(super) slowed: u64,
     /// Intervals that end on a wall's surface to rounding, whither no velocity led.
     pub(super) projected: u64,

@@ -6,7 +6,7 @@ use crate::measure::Figures;
 /// Deviations by which one run may differ from the mean of others.
 const DEVIATIONS: f64 = 3.0;
 
-/// What differs by less than this part of itself is the same: what rounding leaves of a sum.
+/// Part of itself by which a figure may differ and count as equal: what rounding leaves of a sum.
 const SAME: f64 = 1e-9;
 
 /// A figure of many runs.
@@ -16,9 +16,9 @@ pub struct Normal {
     pub mean: f64,
     /// Standard deviation of a run.
     pub deviation: f64,
-    /// How many runs.
+    /// Number of runs.
     pub runs: u64,
-    /// The setting that made them: its method, dt (s) and tolerance.
+    /// The setting that made the runs: its method, dt (s) and tolerance.
     pub by: (String, Option<f64>, Option<f64>),
 }
 
@@ -29,11 +29,11 @@ pub struct Norm(Vec<Option<Normal>>);
 /// A figure of a trajectory beside that of many runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beside {
-    /// Its place in [`FIGURES`].
+    /// Place of the figure in [`FIGURES`].
     pub figure: usize,
-    /// Of the trajectory; none if it does not tell.
+    /// Value in the trajectory; none if it does not tell.
     pub value: Option<f64>,
-    /// Of the runs; none if they do not tell.
+    /// Value in the runs; none if they do not tell.
     pub normal: Option<Normal>,
 }
 
@@ -52,7 +52,7 @@ impl Norm {
         found.iter().any(Option::is_some).then_some(Norm(found))
     }
 
-    /// A trajectory's figures beside these.
+    /// A trajectory's figures beside those of the norm.
     pub(super) fn beside(&self, figures: &Figures) -> Vec<Beside> {
         let all = figures.iter().zip(&self.0).enumerate();
         all.map(|(figure, (value, normal))| Beside { figure, value: *value, normal: normal.clone() }).collect()

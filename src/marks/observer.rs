@@ -17,7 +17,7 @@ const MOST_IMPACTS: usize = 100_000;
 /// Part of an impact that is still one: where a frame spreads it over several rows.
 const PART: f64 = 0.05;
 
-/// What lies apart by less than this part of its reach touches.
+/// Part of its reach within which a body touches.
 const TOUCHES: f64 = 1e-9;
 
 /// Part of its reach within which a body that was put on a surface lies on it.
@@ -33,9 +33,9 @@ const CLOSE: f64 = 0.12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Seen {
     pub(super) key: Key,
-    /// s.
+    /// Time of the impact, s.
     pub(super) time: f64,
-    /// m/s.
+    /// Approach speed, m/s.
     pub(super) approach: f64,
 }
 
@@ -47,7 +47,7 @@ struct Open {
     /// Whether the bodies had overlapped for a whole interval before.
     late: bool,
     alone: bool,
-    /// The interval that showed the last part of it.
+    /// The interval that showed the last part of the impact.
     last: u64,
 }
 
@@ -62,9 +62,9 @@ struct Waiting {
 /// The deepest overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deepest {
-    /// Intersection degree.
+    /// Intersection degree, dimensionless.
     pub degree: f64,
-    /// s.
+    /// Time of the row, s.
     pub time: f64,
     /// Sphere and wall, or two spheres.
     pub key: Key,
@@ -101,7 +101,7 @@ impl<'a> Observer<'a> {
         }
     }
 
-    /// The contacts of a moment; the deepest of them is kept.
+    /// The contacts of a moment; keeps the deepest of them.
     pub(super) fn touches(&mut self, moment: &Moment) -> Vec<Touch> {
         let near = self.bodies.near(&moment.x, 1e-3);
         for touch in &near {
@@ -168,7 +168,7 @@ impl<'a> Observer<'a> {
         self.open.insert(key, Open { kick: *kick, jump: kick.jump, late: waited || deep, alone, last: now });
     }
 
-    /// Bodies that overlap at both ends of an interval.
+    /// Looks at bodies that overlap at both ends of an interval.
     fn together(&mut self, interval: &Interval, [before, after]: [&Touch; 2], kick: Option<&Kick>) {
         let key = before.key;
         let normal = before.normal;
@@ -197,7 +197,7 @@ impl<'a> Observer<'a> {
         }
     }
 
-    /// A sphere on a wall: the tangential velocities before and after, m/s, and the pull along the wall, m/s².
+    /// Looks at a sphere on a wall: the tangential velocities before and after, m/s, and the pull along the wall, m/s².
     fn sliding(&mut self, [start, end, pull]: [DVec3; 3], h: f64) {
         let taken = 1.0 - self.bodies.law.tangential;
         if taken <= 0.0 || start.length() < 0.01 {
@@ -208,7 +208,7 @@ impl<'a> Observer<'a> {
         self.evidence.slowed += u64::from(lost > 0.3 * taken);
     }
 
-    /// Whether a sphere lies on a surface to rounding, whither its velocities do not lead.
+    /// Counts a sphere that lies on a surface to rounding, whither its velocities do not lead.
     fn placed(&mut self, interval: &Interval, touch: &Touch) {
         let (key, h) = (touch.key, interval.h);
         let reach = self.bodies.reach(key);
@@ -257,7 +257,7 @@ impl<'a> Observer<'a> {
         });
     }
 
-    /// The trajectory is over.
+    /// Ends the trajectory.
     pub(super) fn finish(&mut self) {
         self.close(self.intervals + 1);
         self.impacts.sort_by(|one, other| one.time.total_cmp(&other.time));

@@ -11,7 +11,7 @@ use crate::physics::contact::Key;
 pub enum Wrong {
     /// `exact` has it, the trajectory does not.
     Missing,
-    /// It comes so much later (s), or earlier if below 0.
+    /// The impact comes later by this, s; earlier if below 0.
     Late(f64),
     /// The trajectory has it, `exact` does not.
     Extra,
@@ -20,11 +20,11 @@ pub enum Wrong {
 /// An impact that is wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrongImpact {
-    /// When, s: in `exact`; of an extra one in the trajectory.
+    /// Time of the impact, s: in `exact`; of an extra one in the trajectory.
     pub time: f64,
     /// Sphere and wall, or two spheres.
     pub key: Key,
-    /// How.
+    /// How the impact is wrong.
     pub wrong: Wrong,
 }
 
@@ -33,7 +33,7 @@ pub struct WrongImpact {
 pub(super) struct Sight {
     /// Up to when impacts are compared, s.
     pub(super) until: f64,
-    /// Time between two rows, s, the longest.
+    /// Longest time between two rows, s.
     pub(super) spacing: f64,
     /// Delays (s) that count: at least a row, and what a position off by so much (m) means at the impact's speed.
     pub(super) tolerance: f64,
@@ -48,10 +48,11 @@ const CLEARLY: f64 = 1.5;
 /// Impacts held against those that should be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Compared {
-    /// The first that is wrong.
+    /// The first impact that is wrong.
     pub(super) first_wrong: Option<WrongImpact>,
-    /// How many were found of those that rows can show, and how many these are.
+    /// Number of impacts found, of those that rows can show.
     pub(super) found: usize,
+    /// Number of impacts that rows can show.
     pub(super) wanted: usize,
 }
 

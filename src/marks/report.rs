@@ -13,17 +13,17 @@ use crate::measure::{Fit, fit};
 use crate::physics::Kind;
 use crate::physics::contact::Key;
 
-/// Up to so many files each gets a paragraph below the table.
+/// Most files of which each gets a paragraph below the table.
 const TOLD: usize = 8;
 
-/// More spheres are a crowd.
+/// Most spheres that are no crowd.
 const CROWD: usize = 16;
 
 /// Changes below this part stand for rounding, of a program or of its rows.
 const ROUNDING: f64 = 1e-9;
 
-/// The whole report: what they are held against, a line for each file, and for a few of them what was found. `other` names the
-/// file that they are held against instead of `exact`.
+/// The whole report: what they are held against, a line for each file, and for a few of them what was found. `other` names
+/// the file that they are held against instead of `exact`.
 pub fn report(exam: &Exam, scene: &str, other: Option<&str>, marked: &[Marked]) -> String {
     let mut text = heading(exam, scene, other) + "\n\n";
     text += "verdict  error m at s    wrong impact               depth likely mistake         file\n";

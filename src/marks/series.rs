@@ -39,7 +39,7 @@ impl Series {
         self.rows *= 2;
     }
 
-    /// (time, s; largest error of some rows there, m), in the order of time.
+    /// Points in the order of time: time, s, and largest error of some rows there, m.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }

@@ -18,8 +18,9 @@ pub type Source = States<Box<dyn Read + Send>>;
 pub(super) struct Follow<'a> {
     bodies: &'a Bodies,
     source: Source,
-    /// The moments around the last time asked for, and the contacts of the first.
+    /// The moment before the last time asked for.
     before: Moment,
+    /// The moment after the last time asked for; none at the end of the file.
     after: Option<Moment>,
     observer: Observer<'a>,
     /// Largest distance of the parabolas from two rows where they should meet, m.
@@ -31,7 +32,7 @@ pub(super) struct Follow<'a> {
 #[derive(Debug)]
 pub(super) struct Wanted {
     pub(super) x: Vec<DVec3>,
-    /// Energy and momentum, if they are known.
+    /// Energy and momentum then, if they are known.
     pub(super) totals: Option<Totals>,
 }
 
@@ -117,7 +118,7 @@ impl Standard<'_> {
         }
     }
 
-    /// All impacts so far, in order of time; time between its rows, s; how far places between them are uncertain, m.
+    /// All impacts so far, in order of time; longest time between two rows, s; uncertainty of places between rows, m.
     pub(super) fn close(&mut self) -> (Vec<Seen>, f64, f64) {
         match self {
             Standard::Exact(truth) => (std::mem::take(&mut truth.impacts), 0.0, 0.0),

@@ -11,7 +11,7 @@ const MOST_IMPACTS: usize = 100_000;
 #[derive(Debug)]
 pub(super) struct Truth {
     run: Simulation,
-    /// Until when it may be asked, s.
+    /// Time up to which the run may be asked, s.
     pub(super) until: f64,
     pub(super) impacts: Vec<Seen>,
 }

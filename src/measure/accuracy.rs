@@ -1,4 +1,5 @@
-//! The method and setting of least counted work that meets a position error on a scene: the same on every machine, however busy.
+//! The method and setting of least counted work that meets a position error on a scene: equal on every machine, however
+//! busy.
 
 use super::interrupt::{GoOn, Interrupted};
 use super::ladder::{Ladder, Rung};
@@ -31,7 +32,7 @@ const TELLING: f64 = 0.01;
 /// A setting that meets the error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tried {
-    /// Which.
+    /// The setting.
     pub rung: Rung,
     /// The position error found, m.
     pub error: f64,
@@ -42,21 +43,21 @@ pub struct Tried {
 /// The setting of least counted work that meets an error, and what is known about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// What to run with.
+    /// Settings to run with.
     pub settings: Settings,
-    /// The cheapest.
+    /// The cheapest setting that meets the error.
     pub chosen: Tried,
-    /// The cheapest of another method, if one was found.
+    /// The cheapest setting of another method, if one was found.
     pub next: Option<Tried>,
     /// Up to when positions were compared, s: the horizon, the end, or how far `exact` came.
     pub compared: f64,
     /// Up to when `exact` itself is certified to a tenth of the error asked for, s; at most `compared`.
     pub certified: f64,
-    /// How far `exact` itself may be off up to there, m.
+    /// Largest error of `exact` itself up to `compared`, m.
     pub floor: f64,
     /// How far the chosen run was tried, s, if no setting came to its end within the work of a search.
     pub tried_until: Option<f64>,
-    /// How many settings there are, and how many of them were not tried to an end.
+    /// Number of settings, and of those that were not tried to an end.
     pub settings_tried: (usize, usize),
 }
 
@@ -65,7 +66,7 @@ pub struct Choice {
 pub enum Miss {
     /// The caller's [`GoOn`] returned false.
     Interrupted,
-    /// No setting meets it: a sentence.
+    /// No setting meets the error: a sentence.
     Nothing(String),
 }
 
@@ -76,11 +77,12 @@ impl From<Interrupted> for Miss {
 }
 
 /// Tries `methods` on a scene up to the time `until` (s), or as far as positions mean something, and chooses the setting of
-/// least counted work whose largest position error is at most `wanted` (m), of which a tenth is left to `exact` itself. Knobs
-/// that the chosen method does not use are those of `fallback`.
+/// least counted work whose largest position error is at most `wanted` (m), of which a tenth is left to `exact` itself.
+/// Knobs that the chosen method does not use are those of `fallback`.
 ///
 /// Rounds of ever more work: in each, every setting still in question runs from the start until it misses the error, ends,
-/// or has done the work of the round. The first round in which one ends is the last, and has the cheapest. No clock decides.
+/// or has done the work of the round. The first round in which one ends is the last, and has the cheapest. No clock
+/// decides.
 ///
 /// # Errors
 /// If nothing that was tried meets it, or `go_on` returns false.
@@ -128,15 +130,16 @@ pub fn choose(
     })
 }
 
-/// `exact` itself, which has come as far as positions mean something, if it may be chosen: the last resort. And how far it came, s.
+/// `exact` itself, which has come as far as positions mean something, if it may be chosen: the last resort. And how far it
+/// came, s.
 fn reference_run(reference: &Reference, methods: &[Method]) -> Option<(Tried, Option<f64>)> {
     let rung = Rung { method: Method::Exact, dt: None, tolerance: None };
     let tried = Tried { rung, error: 0.0, work: priced(Method::Exact, &reference.tallies) };
     methods.contains(&Method::Exact).then_some((tried, Some(reference.end)))
 }
 
-/// `exact` up to where positions mean something: where it is certified to a part of the error asked for, or where displaced runs have
-/// not parted, whichever is later; and the certificate.
+/// `exact` up to where positions mean something: where it is certified to a part of the error asked for, or where displaced
+/// runs have not parted, whichever is later; and the certificate.
 fn yardstick(scene: &Scene, wanted: f64, until: f64, go_on: GoOn) -> Result<(Reference, Certificate), Interrupted> {
     let certificate = certify_within(scene, until, LOOKS, &|| go_on()).ok_or(Interrupted)?;
     let reference = Reference::brief(scene, until, Budget::BRIEF, go_on)?.with(&certificate, FLOOR * wanted);
@@ -163,13 +166,14 @@ struct Search<'a> {
     reference: &'a Reference,
     /// Largest error, m.
     wanted: f64,
-    /// Those that have neither missed the error nor ended.
+    /// Settings that have neither missed the error nor ended.
     open: Vec<Rung>,
-    /// Those that have met it.
+    /// Settings that have met the error.
     met: Vec<Tried>,
-    /// Those that have met it as far as positions mean something, but not ended, in this round; and how far they came, s.
+    /// Settings that have met the error as far as positions mean something, but not ended, in this round; and how far they
+    /// came, s.
     held: Vec<(Tried, f64)>,
-    /// Counted work of all so far, ns.
+    /// Counted work of all settings so far, ns.
     spent: u64,
 }
 
@@ -178,7 +182,7 @@ enum Outcome {
     Met(Tried),
     Missed,
     Unfinished,
-    /// It has met the error as far as that can be said, and come so far, s.
+    /// The setting has met the error as far as that can be said, up to this time, s.
     Held(Tried, f64),
 }
 
@@ -206,7 +210,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Runs one setting to the end, since one that stalls is of no use, for at most so much counted work, ns.
+    /// Runs one setting to the end, since one that stalls is of no use, for at most `work` of counted work, ns.
     fn attempt(&mut self, rung: Rung, work: u64, go_on: GoOn) -> Result<Outcome, Interrupted> {
         let until = self.reference.instants.until;
         let frames = rung.dt.map_or(0.0, |dt| until / dt);

@@ -91,7 +91,7 @@ impl Error {
         if self == Error::Position { "largest position error up to the horizon, m" } else { self.axis() }
     }
 
-    /// What it is, as a title begins.
+    /// The error in words, as a title begins.
     pub(super) fn title(self) -> &'static str {
         match self {
             Error::Position => "Position error",
@@ -114,9 +114,9 @@ impl Error {
 /// An error over a cost; position error over processor time unless told otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Axes {
-    /// Across.
+    /// The cost across.
     pub x: Cost,
-    /// Up.
+    /// The error up.
     pub y: Error,
 }
 
@@ -142,7 +142,7 @@ impl Axes {
         }
     }
 
-    /// Both.
+    /// Cost and error of a row; none if it lacks one.
     pub(super) fn point(self, row: &TradeRow) -> Option<(f64, f64)> {
         Some((self.cost(row)?, self.error(row)?))
     }

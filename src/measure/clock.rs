@@ -9,7 +9,7 @@ use rustix::time::{ClockId, clock_getres, clock_gettime};
 pub(super) struct Passed {
     /// Time that this thread has worked, s.
     pub(super) cpu: f64,
-    /// Time on the wall, s; more than `cpu` by what the machine gave to others.
+    /// Wall time, s; more than `cpu` by what the machine gave to others.
     pub(super) wall: f64,
 }
 
@@ -36,12 +36,12 @@ impl Watch {
         Passed { cpu: self.cpu(), wall: self.wall() }
     }
 
-    /// Time that this thread has worked since, s. A call to the system: half a microsecond.
+    /// Time that this thread has worked since the watch was started, s. A call to the system: half a microsecond.
     pub(super) fn cpu(&self) -> f64 {
         thread_cpu() - self.cpu
     }
 
-    /// Time on the wall since, s. Cheap.
+    /// Wall time since the watch was started, s. Cheap.
     pub(super) fn wall(&self) -> f64 {
         self.wall.elapsed().as_secs_f64()
     }

@@ -6,7 +6,7 @@ use super::sample::run_through;
 use crate::physics::Simulation;
 use crate::scene::{Scene, Settings};
 
-/// One timing lasts at least so long, s: shorter runs are repeated, so that the clock's own cost is lost in them.
+/// Shortest timing, s: shorter runs are repeated, so that the clock's own cost is lost in them.
 const SHORTEST: f64 = 2e-3;
 
 /// How often a run is repeated at most within one timing.
@@ -16,13 +16,13 @@ const MOST_REPEATS: u64 = 1000;
 /// because one in a handful meets no disturbance only on an idle machine.
 const TIMINGS: [(f64, usize); 3] = [(0.01, 15), (0.2, 5), (2.0, 3)];
 
-/// A timing below so many times the clock's resolution says little.
+/// Shortest timing, in units of the clock's resolution, that says much.
 const COARSE: f64 = 100.0;
 
-/// A spread above this is wide: the best may still be too slow.
+/// Largest spread that is not wide: above it the best may still be too slow.
 const WIDE: f64 = 0.25;
 
-/// Wall time beyond this many times the processor time: others had the machine.
+/// Wall time over processor time above which others had the machine.
 const BUSY: f64 = 1.5;
 
 /// Wall time that a thread may wait without the machine being called busy, s: a turn of the scheduler.
@@ -33,9 +33,9 @@ const WAIT: f64 = 2e-3;
 pub struct Cost {
     /// Thread CPU time per simulated second, s: the best of several timings.
     pub cpu_per_s: f64,
-    /// The median of them.
+    /// Median of the timings, s of thread CPU time per simulated second.
     pub median: f64,
-    /// (worst − best) / best; none if it was timed once.
+    /// (worst − best) / best of the timings, dimensionless; none of one timing.
     pub spread: Option<f64>,
     /// Reasons to doubt these figures, a phrase each.
     pub doubts: Vec<&'static str>,
@@ -54,7 +54,8 @@ pub fn cost(scene: &Scene, settings: Settings, until: f64, go_on: GoOn) -> Resul
     Ok(timings.summary())
 }
 
-/// Timings of a setting under way: one after the other, or in turn with those of other settings, so that a slow minute hits all.
+/// Timings of a setting under way: one after the other, or in turn with those of other settings, so that a slow minute hits
+/// all.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Timings {
     settings: Settings,
@@ -88,7 +89,7 @@ impl Timings {
         self.passed.len() < self.count
     }
 
-    /// One timing more.
+    /// Times the runs once more.
     ///
     /// # Errors
     /// If `go_on` returns false.
@@ -103,7 +104,7 @@ impl Timings {
     }
 }
 
-/// The time of so many runs in a row, and the seconds that one of them simulated.
+/// The time of `repeats` runs in a row, and the seconds that one of them simulated.
 fn time(fresh: &Simulation, until: f64, repeats: u64, go_on: GoOn) -> Result<(Passed, f64), Interrupted> {
     let (mut total, mut simulated) = (Passed::default(), 0.0);
     for _ in 0..repeats {
@@ -116,7 +117,7 @@ fn time(fresh: &Simulation, until: f64, repeats: u64, go_on: GoOn) -> Result<(Pa
     Ok((total, simulated))
 }
 
-/// `simulated`: seconds simulated in each timing.
+/// The cost from timings in each of which `simulated` seconds were simulated.
 fn summary(timings: &[Passed], simulated: f64) -> Cost {
     let cpu = || timings.iter().map(|passed| passed.cpu);
     let (best, worst) = (cpu().fold(f64::INFINITY, f64::min), cpu().fold(0.0, f64::max));

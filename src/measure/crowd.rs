@@ -1,5 +1,5 @@
-//! A crowd judged beyond the horizon, where places mean nothing any longer: means over many runs that begin a hair's breadth
-//! aside, which any right method must share.
+//! A crowd judged beyond the horizon, where places mean nothing any longer: means over many runs that begin a hair's
+//! breadth aside, which any right method must share.
 
 use super::displaced::aside;
 use super::interrupt::{GoOn, Interrupted};
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 /// How far each sphere is displaced, as a part of the smallest radius: no figure sees it, and every collision enlarges it.
 const ASIDE: f64 = 1e-9;
 
-/// Means that differ by less than this part of themselves are the same: what rounding leaves of a sum.
+/// Part of themselves by which means may differ and count as equal: what rounding leaves of a sum.
 const SAME: f64 = 1e-9;
 
 /// Standard errors by which means may differ.
@@ -24,20 +24,20 @@ pub(super) const ERRORS: f64 = 3.0;
 pub struct Mean {
     /// Mean of the runs that have the figure.
     pub mean: f64,
-    /// Its standard error; 0 of one run.
+    /// Standard error of the mean; 0 of one run.
     pub error: f64,
-    /// How many runs have it.
+    /// Number of runs that have the figure.
     pub runs: usize,
 }
 
 /// One run of a setting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran {
-    /// How far it came, s.
+    /// Time that the run reached, s.
     pub reached: f64,
-    /// Why no further; none if it came to its end.
+    /// Why the run stopped before its end; none if it did not.
     pub stopped: Option<Stopped>,
-    /// What it gave up to there.
+    /// Figures of the run up to there.
     pub figures: Figures,
 }
 
@@ -46,14 +46,14 @@ pub struct Ran {
 pub enum Stopped {
     /// The method could not go on.
     Stalled,
-    /// What it may take was spent.
+    /// The budget of the run was spent.
     Spent,
 }
 
 /// One setting's means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crowd {
-    /// Which setting.
+    /// The setting.
     pub rung: Rung,
     /// Runs that came to the end, of those begun.
     pub finished: (usize, usize),
@@ -61,7 +61,7 @@ pub struct Crowd {
     pub stalled: usize,
     /// How far the run came that came least far, and the one that came farthest, s.
     pub reached: (f64, f64),
-    /// In the order of [`FIGURES`].
+    /// Means in the order of [`FIGURES`]; none where no run has the figure.
     pub means: Vec<Option<Mean>>,
 }
 
@@ -143,7 +143,8 @@ pub fn crowd_run(scene: &Scene, rung: Rung, (seed, budget): (u64, Budget), go_on
     Ok(Ran { reached: until, stopped: None, figures: seen.figures_with(told) })
 }
 
-/// Runs to `time` (s) frame by frame, and adds what the walls gave against gravity, N s. Says so if it cannot.
+/// Runs to `time` (s) frame by frame, and adds what the walls gave against gravity to `carried`, N s. Why it ended before,
+/// if it did.
 fn carry(
     run: &mut Simulation,
     time: f64,
@@ -172,8 +173,8 @@ fn carry(
     Ok(None)
 }
 
-/// What the resting contacts of the last frame leave of Signorini's conditions: gap ≥ 0, force ≥ 0, gap × force = 0. (The gap is
-/// asked for all bodies, whether they rest or not.)
+/// What the resting contacts of the last frame leave of Signorini's conditions: gap ≥ 0, force ≥ 0, gap × force = 0. (The
+/// gap is asked for all bodies, whether they rest or not.)
 fn residuals(run: &Simulation) -> Told {
     let radii = &run.model().radii;
     let mut found = Told::default();

@@ -10,11 +10,11 @@ use crate::export::{CrowdRow, FIGURES, RESIDUALS};
 use crate::format;
 use crate::scene::Method;
 
-/// Differences beyond so many standard errors are all the same.
+/// Largest difference that is told, in standard errors.
 const FAR: f64 = 1000.0;
 
-/// Which setting the others are held against in figure `k`: `exact`, if all its runs have the figure or came to the end; else the
-/// last setting of which that is so.
+/// Which setting the others are held against in figure `k`: `exact`, if all its runs have the figure or came to the end;
+/// else the last setting of which that is so.
 fn standard(crowds: &[Crowd], k: usize) -> Option<usize> {
     let known = |crowd: &&(usize, &Crowd)| {
         let (done, begun) = crowd.1.finished;
@@ -31,7 +31,7 @@ fn is_held(k: usize) -> bool {
     k < FIGURES.len() - RESIDUALS
 }
 
-/// The same setting with half the step, and finer in nothing else.
+/// The crowd of this setting with half the step, and finer in nothing else.
 fn half<'a>(crowds: &'a [Crowd], rung: &Rung) -> Option<&'a Crowd> {
     let dt = rung.dt? * 0.5;
     crowds.iter().find(|other| other.rung == Rung { dt: Some(dt), ..*rung })

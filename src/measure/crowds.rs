@@ -15,13 +15,13 @@ use crate::scene::{Method, Scene};
 /// What is run of each scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrowdPlan {
-    /// In their order.
+    /// Settings, in their order.
     pub rungs: Vec<Rung>,
     /// Runs of each setting.
     pub seeds: u64,
-    /// What a run may take.
+    /// Budget of a run.
     pub budget: Budget,
-    /// Which of the runs are made.
+    /// The part of the runs that is made.
     pub shard: Shard,
     /// Runs side by side.
     pub jobs: usize,
@@ -36,14 +36,14 @@ pub struct SceneCrowds {
     pub until: f64,
     /// Runs of each setting that were planned.
     pub seeds: u64,
-    /// A setting each: by method in the program's order, then coarse to fine.
+    /// Crowds, one for each setting: by method in the program's order, then coarse to fine.
     pub crowds: Vec<Crowd>,
 }
 
 /// A run and where it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedRun {
-    /// `file:line`; empty if it was read from no file.
+    /// `file:line`; empty if the run was read from no file.
     pub place: String,
     /// The run.
     pub run: CrowdRun,
@@ -55,7 +55,7 @@ impl CrowdPlan {
         (0..self.rungs.len() * self.seeds as usize).filter(|task| self.shard.has(*task)).collect()
     }
 
-    /// How many runs of a scene are made.
+    /// Number of runs of a scene that are made.
     pub fn runs(&self) -> usize {
         self.tasks().len()
     }
@@ -107,7 +107,8 @@ fn word(stopped: Stopped) -> &'static str {
 /// Gathers runs, in whatever order they come, by scene and setting.
 ///
 /// # Errors
-/// An unknown method or reason to stop, a run that comes twice, parts of plans that differ in duration or in their number of seeds.
+/// An unknown method or reason to stop, a run that comes twice, parts of plans that differ in duration or in their number
+/// of seeds.
 pub fn gather(runs: impl IntoIterator<Item = PlacedRun>) -> Result<Vec<SceneCrowds>, GatherError> {
     let mut scenes: Vec<Gathered> = Vec::new();
     for PlacedRun { place, run } in runs {
@@ -131,8 +132,8 @@ pub fn gather(runs: impl IntoIterator<Item = PlacedRun>) -> Result<Vec<SceneCrow
     Ok(scenes.into_iter().map(Gathered::close).collect())
 }
 
-/// Where a setting belongs: methods in the program's order, then coarse to fine. All numbers are ≥ 0, whose bits are in the order of
-/// their values.
+/// Where a setting belongs: methods in the program's order, then coarse to fine. All numbers are ≥ 0, whose bits are in the
+/// order of their values.
 type Place = (usize, u64, u64);
 
 /// Runs by seed, each with its place.

@@ -14,15 +14,15 @@ const FIRST: usize = 10;
 /// The largest deviation of positions between two runs of one scene at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deviation {
-    /// |x − x_ref|, m.
+    /// Largest |x − x_ref|, m.
     pub distance: f64,
-    /// Of which sphere; the first one if all agree.
+    /// Sphere that deviates most; the first one if all agree.
     pub sphere: usize,
 }
 
 impl Deviation {
-    /// Between two lists of centres (m) in the same order, at the same time. A position that is no number is infinitely
-    /// far off.
+    /// The deviation between two lists of centres (m) in the same order, at the same time. A position that is no number is
+    /// infinitely far off.
     pub fn between(x: &[DVec3], reference: &[DVec3]) -> Deviation {
         let mut largest = Deviation::default();
         for (sphere, (x, x_ref)) in x.iter().zip(reference).enumerate() {

@@ -11,24 +11,24 @@ use crate::scene::{Scene, Settings, Wall};
 /// How many displaced runs are tried; the worst counts.
 pub(super) const RUNS: u64 = 8;
 
-/// By how much each sphere is displaced, m.
+/// Displacement of each sphere, m.
 const DISPLACEMENT: f64 = 1e-12;
 
-/// Far from the origin 1e-12 m round to nothing; there it is so many units in the last place of the largest coordinate.
+/// Displacement far from the origin, in units in the last place of the largest coordinate: 1e-12 m would round to nothing.
 const ULPS: f64 = 16.0;
 
 /// Growth at which positions are given up.
 const GROWTH: f64 = 1e6;
 
-/// A gap up to so many displacements is touched: a displacement toward that wall would push into it.
+/// Largest gap to a wall that counts as touched, in displacements: a displacement toward that wall would push into it.
 const TOUCH: f64 = 4.0;
 
 /// How far a displaced run has parted from the run that it is compared with.
 #[derive(Debug, Clone)]
 pub(super) struct Parting {
-    /// How far each sphere was displaced, m.
+    /// Displacement of each sphere at the start, m.
     length: f64,
-    /// The largest growth of that up to now, dimensionless.
+    /// Largest growth of the displacement up to now, dimensionless.
     pub(super) growth: f64,
 }
 

@@ -42,7 +42,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Where a row lies, px; none if it lacks a figure.
+    /// Place of a row, px; none if it lacks a figure.
     fn point(&self, row: &TradeRow) -> Option<(f64, f64)> {
         let (cost, error) = self.axes.point(row)?;
         Some((self.across(self.x.place(cost)), self.up(self.y.place(error))))

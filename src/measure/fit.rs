@@ -3,11 +3,12 @@
 /// An error that goes as the `order`-th power of a knob.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
-    /// The power.
+    /// Exponent of the power law.
     pub order: f64,
-    /// The true one lies within so much of it with 95 % certainty, if logarithms scatter normally; none of two points.
+    /// Half width of the interval around `order` that holds the true exponent with 95 % certainty, if logarithms scatter
+    /// normally; none of two points.
     pub margin: Option<f64>,
-    /// Points that it goes through.
+    /// Number of points that are fitted.
     pub points: usize,
 }
 
@@ -17,8 +18,8 @@ const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.
 /// Student's t for 95 % and more degrees of freedom than [`STUDENT`] lists: that of the normal distribution.
 const NORMAL: f64 = 1.96;
 
-/// The least-squares line through log(error) over log(knob); values that are not above 0 and finite are left out. None of fewer than
-/// two different knobs.
+/// The least-squares line through log(error) over log(knob); values that are not above 0 and finite are left out. None of
+/// fewer than two different knobs.
 pub fn fit(points: impl IntoIterator<Item = (f64, f64)>) -> Option<Fit> {
     let usable = |value: f64| value > 0.0 && value.is_finite();
     let points = points.into_iter().filter(|(knob, error)| usable(*knob) && usable(*error));

@@ -18,7 +18,7 @@ pub fn front(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> Vec<usize> {
     order.iter().filter_map(better).collect()
 }
 
-/// (error, cost, index) of the rows that may compete.
+/// Error, cost and index of the rows that may compete.
 fn competitors(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> impl Iterator<Item = (f64, f64, usize)> {
     rows.iter().enumerate().filter_map(move |(index, row)| {
         let method = Method::from_name(&row.method).filter(|method| allowed.contains(method));
@@ -30,11 +30,11 @@ fn competitors(rows: &[TradeRow], allowed: &[Method], axes: Axes) -> impl Iterat
 /// The cheapest setting for some decades of error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cheapest {
-    /// Largest error for which it is the cheapest.
+    /// Largest error for which the setting is the cheapest.
     pub from: f64,
-    /// Smallest error that it meets, a power of ten.
+    /// Smallest error that the setting meets, a power of ten.
     pub to: f64,
-    /// Which row.
+    /// Index of the setting's row.
     pub row: usize,
 }
 

@@ -13,11 +13,12 @@ pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// The settings to try.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ladder {
-    /// In any order.
+    /// Methods to try, in any order.
     pub methods: Vec<Method>,
     /// Longest steps, s; none: [`DT`], of which only the longest where a step changes nothing but the cost.
     pub dt: Option<Vec<f64>>,
-    /// Tolerances, degrees; none: [`TOLERANCES`], of which only the coarsest where a tolerance changes nothing but the cost.
+    /// Tolerances, degrees; none: [`TOLERANCES`], of which only the coarsest where a tolerance changes nothing but the
+    /// cost.
     pub tolerances: Option<Vec<f64>>,
 }
 
@@ -32,14 +33,14 @@ impl Default for Ladder {
 pub struct Rung {
     /// The method.
     pub method: Method,
-    /// Longest step, s, if it matters.
+    /// Longest step, s; none if the method has no step.
     pub dt: Option<f64>,
-    /// Tolerance, a degree, if it matters.
+    /// Tolerance, a degree; none if the method has no tolerance.
     pub tolerance: Option<f64>,
 }
 
 impl Rung {
-    /// What to run with for `until` seconds: a step that does not matter is as long as the run.
+    /// The settings of a run of `until` seconds: a step that does not matter is as long as the run.
     pub fn settings(&self, until: f64) -> Settings {
         let idle = reference::settings(until);
         Settings {
@@ -65,7 +66,7 @@ impl Ladder {
     }
 }
 
-/// Large to small, each once; nothing, once, for a knob that does nothing.
+/// Values of a knob, large to small, each once; none, once, for a knob that does nothing.
 fn values(effect: Effect, listed: &Option<Vec<f64>>, usual: &[f64]) -> Vec<Option<f64>> {
     let mut values = listed.as_deref().unwrap_or(usual).to_vec();
     values.sort_by(|a, b| b.total_cmp(a));

@@ -1,9 +1,9 @@
 //! Runs without a screen that measure: how far a method is from the truth, and what it costs.
 //!
-//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*: until there the
-//! certified error of `exact` is within what is asked, or a displacement of 1e-12 m has not yet grown by 1e6; beyond it positions mean
-//! nothing. The cost is the processor time of one
-//! thread per simulated second, and the work counted. How far `exact` itself is off, [`certify`](crate::certify) tells.
+//! The error of a run is measured against `exact` on the same scene, up to the scene's *horizon*: until there the certified
+//! error of `exact` is within what is asked, or a displacement of 1e-12 m has not yet grown by 1e6; beyond it positions
+//! mean nothing. The cost is the processor time of one thread per simulated second, and the work counted. How far `exact`
+//! itself is off, [`certify`](crate::certify) tells.
 //!
 //! For others to build on:
 //! - [`Deviation::between`] two lists of positions: the largest distance and the sphere it is of. What a live panel shows.
@@ -29,8 +29,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Begin with `trade`, then `sample` and `yardstick`. Every function that may take long asks a [`GoOn`] every few milliseconds and returns [`Interrupted`] if it returns false.
-//! Everything but times repeats to the bit.
+//! Begin with `trade`, then `sample` and `yardstick`. Every function that may take long asks a [`GoOn`] every few
+//! milliseconds and returns [`Interrupted`] if it returns false. Everything but times repeats to the bit.
 //!
 //! | file | owns |
 //! |---|---|

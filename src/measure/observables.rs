@@ -80,7 +80,7 @@ impl Observables {
         self.pulls.iter().zip(&self.masses).map(|(pull, mass)| *pull * *mass).sum()
     }
 
-    /// Against the weight; y where there is none.
+    /// Unit vector against the weight; y where there is none.
     pub(super) fn up(&self) -> DVec3 {
         let weight = self.weight();
         if weight == DVec3::ZERO { DVec3::Y } else { -weight.normalize() }
@@ -116,7 +116,7 @@ impl Observables {
         }
     }
 
-    /// Whether it was followed to its end, but for half a part of the run.
+    /// Whether the crowd was followed to the end of the run, but for half a part of it.
     fn is_whole(&self) -> bool {
         self.until - self.last <= 0.5 * self.until / INSTANTS as f64
     }
@@ -134,7 +134,7 @@ impl Observables {
         self.figures_with(Told::default())
     }
 
-    /// The same with what contacts have told.
+    /// The figures at the end, those that only contacts tell included.
     pub(super) fn figures_with(&self, Told { forces, pull, product }: Told) -> Figures {
         let near = |k: usize| {
             let (time, energy) = self.energies[k]?;
@@ -161,14 +161,14 @@ impl Observables {
         ]
     }
 
-    /// From when on the kinetic energy stays small, s.
+    /// Time from which on the kinetic energy stays small, s.
     fn settled(&self) -> Option<f64> {
         let most = self.kinetic.iter().copied().fold(0.0, f64::max);
         let moves = self.kinetic.iter().rposition(|energy| *energy > SETTLED * most)?;
         (moves + 1 < self.kinetic.len()).then(|| (moves + 1) as f64 * self.until / INSTANTS as f64)
     }
 
-    /// Who touches whom at the last time.
+    /// The contacts at the last time.
     fn contacts(&self) -> Contacts {
         let (n, x) = (self.places.len(), &self.places);
         let mut order: Vec<usize> = (0..n).collect();

@@ -2,29 +2,29 @@
 
 use super::axes::Axes;
 use super::fit::{Fit, fit};
+use super::trade::PARTED;
 use crate::export::TradeRow;
 use crate::physics::{Effect, knobs};
 use crate::scene::Method;
-
-/// Rows that part from the reference, or are no better than its own error, say nothing of an order.
-const PARTED: &str = "parted from the reference";
 
 /// An order found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Order {
     pub(super) method: String,
-    /// Which knob.
+    /// Name of the knob.
     pub(super) knob: &'static str,
     pub(super) fit: Fit,
 }
 
-/// The orders of all methods in the rows of one scene: in dt where the error depends on it, with the finest tolerance of each step;
-/// else in the tolerance, with the longest step. `floor` (m) is the reference's own error.
+/// The orders of all methods in the rows of one scene: in dt where the error depends on it, with the finest tolerance of
+/// each step; else in the tolerance, with the longest step. `floor` (m) is the reference's own error.
 pub(super) fn orders(rows: &[TradeRow], axes: Axes, floor: f64) -> Vec<Order> {
     let methods = rows.chunk_by(|a, b| a.method == b.method);
     methods.filter_map(|of_method| order(of_method, axes, floor)).collect()
 }
 
+/// The order in the rows of one method. Rows that part from the reference, or are no better than its own error, say
+/// nothing.
 fn order(rows: &[TradeRow], axes: Axes, floor: f64) -> Option<Order> {
     let known = knobs(Method::from_name(&rows[0].method)?);
     let counts = |row: &&TradeRow| {

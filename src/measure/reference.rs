@@ -12,21 +12,21 @@ use crate::scene::{Method, Scene, Settings};
 /// A run of a scene to compare others with.
 #[derive(Debug, Clone)]
 pub struct Reference {
-    /// What it was run with.
+    /// Settings of the run.
     pub settings: Settings,
-    /// When it was read.
+    /// Instants at which the run was read.
     pub instants: Instants,
-    /// How far it got, s.
+    /// Time that the run reached, s.
     pub end: f64,
-    /// Its impacts up to `end`, in order.
+    /// Impacts up to `end`, in order.
     pub impacts: Vec<Impact>,
-    /// What it counted.
+    /// Counted work and outcomes of the run.
     pub tallies: Tallies,
-    /// How long its positions can be compared with others.
+    /// Time up to which positions can be compared with others.
     pub horizon: Horizon,
-    /// What is known of its own error; none if it is not certified.
+    /// What is known of the reference's own error; none if it is not certified.
     pub own: Option<OwnError>,
-    /// A reason to doubt it, a phrase; empty if there is none.
+    /// A reason to doubt the reference, a phrase; empty if there is none.
     pub doubt: String,
     positions: Vec<DVec3>,
     energies: Vec<f64>,
@@ -45,7 +45,7 @@ pub struct Horizon {
 /// How far a reference itself is off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OwnError {
-    /// Up to when that is known to be within what is asked, s.
+    /// Time up to which the error is known to be within what is asked, s.
     pub until: f64,
     /// The largest distance of a sphere from where it should be, up to then, m.
     pub error: f64,

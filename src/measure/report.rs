@@ -11,7 +11,7 @@ use crate::export::TradeRow;
 use crate::format;
 use crate::scene::Method;
 
-/// Growth from which positions are worse than rounding by so much that a reader should know.
+/// Growth of a displacement from which positions are so much worse than rounding that a reader should know.
 const GROWN: f64 = 100.0;
 
 /// The report on all rows, a section by scene. `allowed` methods compete on the front.
@@ -154,7 +154,8 @@ fn price(rows: &[TradeRow], best: &[usize], yardstick: Option<&Yardstick>) -> St
     format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", format::duration(price))
 }
 
-/// The indices of rows that are one and the same but for a knob: the rows of one method whose every counted figure is equal.
+/// The indices of rows that are one and the same but for a knob: the rows of one method whose every counted figure is
+/// equal.
 fn fold(rows: &[TradeRow]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (index, row) in rows.iter().enumerate() {

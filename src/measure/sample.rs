@@ -9,7 +9,7 @@ use super::work::counted;
 use crate::physics::contact::Key;
 use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
 
-/// A slice of work lasts about so long, s: that soon an interrupt is noticed.
+/// Length of a slice of work, s, about: that soon an interrupt is noticed.
 const SLICE: f64 = 2e-3;
 
 /// What a run may take before it is given up.
@@ -26,14 +26,14 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// As much as it takes.
+    /// The budget of a run that may take as much as it takes.
     pub const UNLIMITED: Budget = Budget { work: u64::MAX, cpu: f64::INFINITY, counted: u64::MAX, changes: u64::MAX };
-    /// For a reference: minutes of flights. A crowd that settles takes more, and gets the stand-in.
+    /// The budget of a reference: minutes of flights. A crowd that settles takes more, and gets the stand-in.
     pub const REFERENCE: Budget = Budget { work: 50_000_000, cpu: 60.0, ..Budget::UNLIMITED };
-    /// For a reference that a user waits for: half a second of counted work.
+    /// The budget of a reference that a user waits for: half a second of counted work.
     pub const BRIEF: Budget = Budget::counted(500_000_000);
 
-    /// So much counted work, ns, and nothing else.
+    /// The budget of `counted` work, ns, and of nothing else.
     pub const fn counted(counted: u64) -> Budget {
         Budget { counted, ..Budget::UNLIMITED }
     }
@@ -43,16 +43,16 @@ impl Budget {
 /// so that all settings are judged at the same times, and the reference is computed once for all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instants {
-    /// The last, s.
+    /// The last instant, s.
     pub until: f64,
-    /// How many there are after t = 0; at least 1.
+    /// Number of instants after t = 0; at least 1.
     pub count: usize,
 }
 
-/// Of a small scene so many: every 0.01 s of 20 s.
+/// Instants of a small scene: every 0.01 s of 20 s.
 const MOST: usize = 2000;
 
-/// Of a large scene not fewer than so many.
+/// Fewest instants of a large scene.
 const FEWEST: usize = 100;
 
 /// Positions a reference may hold: 48 MB. Beyond it the instants get fewer.
@@ -70,12 +70,12 @@ impl Instants {
     }
 }
 
-/// An impact: when, s, and between which two bodies.
+/// An impact: its time, and its two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
-    /// When, s.
+    /// Time of the impact, s.
     pub time: f64,
-    /// Between which two bodies.
+    /// The two bodies of the impact.
     pub key: Key,
 }
 
@@ -84,7 +84,7 @@ pub struct Impact {
 pub enum EndReason {
     /// The method cannot go on.
     Stalled(Stall),
-    /// Its budget of work is spent.
+    /// The budget of the run is spent.
     Spent,
     /// The caller has seen enough.
     Enough,
@@ -93,13 +93,13 @@ pub enum EndReason {
 /// A run that has been read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled {
-    /// How far it was read, s.
+    /// Time up to which the run was read, s.
     pub end: f64,
-    /// Why not to the last instant.
+    /// Why the run was not read to the last instant; none if it was.
     pub end_reason: Option<EndReason>,
-    /// Its impacts up to `end`, in order.
+    /// Impacts up to `end`, in order.
     pub impacts: Vec<Impact>,
-    /// What it counted, up to the end of the frame that holds `end`.
+    /// Counted work and outcomes up to the end of the frame that holds `end`.
     pub tallies: Tallies,
 }
 

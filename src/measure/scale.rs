@@ -34,7 +34,7 @@ impl Scale {
         if place.is_nan() { 1.0 } else { place.clamp(0.0, 1.0) }
     }
 
-    /// The decades to be marked, with at most `room` of them: (place, label).
+    /// The decades to be marked, `room` of them at most, each with its place and label.
     pub(super) fn ticks(&self, room: usize) -> Vec<(f64, String)> {
         let span = self.high - self.low;
         let step = (1..=span).find(|step| (span / step) < room as i32).unwrap_or(span);

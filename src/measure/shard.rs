@@ -18,7 +18,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All of it.
+    /// The whole sweep.
     pub const WHOLE: Shard = Shard { index: 1, count: 1 };
 
     /// Part I of N, written `I/N`.
@@ -34,8 +34,8 @@ impl Shard {
             .ok_or(NoShard)
     }
 
-    /// Whether it has the setting of that index in the whole sweep. Dealt out one by one, so that each part gets its
-    /// share of the small steps, which take longest.
+    /// Whether the part has the setting of that index in the whole sweep. Settings are dealt out one by one, so that each
+    /// part gets its share of the small steps, which take longest.
     pub(super) fn has(&self, index: usize) -> bool {
         index % self.count == self.index - 1
     }

@@ -6,7 +6,7 @@ use std::thread;
 
 use super::interrupt::Interrupted;
 
-/// The results of tasks 0 to `count` that could be done, by at most so many threads, each taking the next task.
+/// The results of tasks 0 to `count` that could be done, by at most `jobs` threads, each taking the next task.
 pub(crate) fn side_by_side<T: Send>(
     count: usize,
     jobs: usize,

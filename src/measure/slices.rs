@@ -11,7 +11,8 @@ pub struct Slices {
 }
 
 impl Slices {
-    /// Little enough for any machine at first; a cheap scene multiplies it within milliseconds.
+    /// Slices that aim at `aim` (s): so little work at first that any machine is quick with it; a cheap scene multiplies it
+    /// within milliseconds.
     pub fn of(aim: f64) -> Slices {
         Slices { work: 256, aim }
     }

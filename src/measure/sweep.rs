@@ -34,7 +34,7 @@ pub struct Sweep {
 pub struct Measured {
     /// The settings that are done, by scene, method, dt, tolerance.
     pub rows: Vec<TradeRow>,
-    /// How many there were to do.
+    /// Number of settings that there were to do.
     pub wanted: usize,
     /// What the reference of each scene cost, s of thread CPU per simulated second.
     pub yardsticks: Vec<Yardstick>,
@@ -45,7 +45,7 @@ pub struct Measured {
 pub struct Yardstick {
     /// The scene's key.
     pub scene: String,
-    /// By which method.
+    /// Method of the reference.
     pub method: Method,
     /// Thread CPU time per simulated second, s.
     pub cpu_per_s: f64,
@@ -97,29 +97,29 @@ impl Sweep {
         }
     }
 
-    /// This sweep, with each setting given up after so much processor time (s), and judged up to there.
+    /// The sweep, with each setting given up after `timeout` (s) of processor time, and judged up to there.
     pub fn with_timeout(self, timeout: f64) -> Sweep {
         Sweep { timeout, ..self }
     }
 
-    /// This sweep, with horizons where the certified error of a reference leaves `asked`, m.
+    /// The sweep, with horizons where the certified error of a reference leaves `asked`, m.
     pub fn asking(self, asked: f64) -> Sweep {
         Sweep { asked, ..self }
     }
 
-    /// The settings of this sweep's shard: (index of the scene, setting).
+    /// The settings of the sweep's shard, each with the index of its scene.
     fn tasks(&self) -> Vec<(usize, Rung)> {
         let rungs = self.ladder.rungs();
         let all = (0..self.scenes.len()).flat_map(|scene| rungs.iter().map(move |rung| (scene, *rung)));
         all.enumerate().filter(|(index, _)| self.shard.has(*index)).map(|(_, task)| task).collect()
     }
 
-    /// How many settings there are to do.
+    /// Number of settings that there are to do.
     pub fn wanted(&self) -> usize {
         self.tasks().len()
     }
 
-    /// Measures, with so many threads. What was done when `go_on` returned false is kept.
+    /// Measures, with `jobs` threads. What was done when `go_on` returned false is kept.
     pub fn run(&self, jobs: usize, go_on: GoOn, advanced: &(dyn Fn(Advance) + Sync)) -> Measured {
         let tasks = self.tasks();
         let needed = |scene: usize| tasks.iter().any(|task| task.0 == scene);

@@ -26,10 +26,13 @@ const CONSERVED: f64 = 1e-9;
 /// The doubt of a setting that is nearer to the reference than that is to the truth.
 pub(super) const BELOW: &str = "below the yardstick's own error";
 
+/// The doubt of a setting that is farther from the reference than the smallest radius.
+pub(super) const PARTED: &str = "parted from the reference";
+
 /// The errors of a run against a reference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Errors {
-    /// How far the run got, s.
+    /// Time that the run reached, s.
     pub end: f64,
     /// Largest deviation of positions up to the horizon.
     pub position: Deviation,
@@ -47,7 +50,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Whether it is the reference itself once more.
+    /// Whether the run is the reference itself once more.
     fn is_exact(&self) -> bool {
         self.position.distance == 0.0
     }
@@ -118,7 +121,7 @@ pub struct Subject {
     pub key: String,
     /// The scene.
     pub scene: Scene,
-    /// Its reference, up to the scene's duration.
+    /// Reference of the scene, up to the scene's duration.
     pub reference: Reference,
 }
 
@@ -152,7 +155,7 @@ impl Subject {
         Ok(setting.row())
     }
 
-    /// Measures the errors of one setting, within so much processor time (s), and times it once.
+    /// Measures the errors of one setting, within `timeout` (s) of processor time, and times it once.
     ///
     /// # Errors
     /// If `go_on` returns false.
@@ -212,7 +215,7 @@ impl Subject {
             doubts.push(BELOW.into());
         }
         if errors.position.distance > smallest {
-            doubts.push("parted from the reference".into());
+            doubts.push(PARTED.into());
         }
         if errors.impact_time.is_none() && !self.reference.impacts.is_empty() {
             doubts.push("lacks one of the first impacts".into());
@@ -229,7 +232,7 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// What is known by now.
+    /// The row with what is known by now.
     pub(super) fn row(&self) -> TradeRow {
         let cost = self.timings.summary();
         let finite = |cost: f64| Some(cost).filter(|cost| cost.is_finite()); // none of a run that stalls at its start

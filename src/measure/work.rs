@@ -1,10 +1,11 @@
-//! What a run has cost in counted work: the same on every machine and however busy it is, unlike time.
+//! What a run has cost in counted work: unlike time, it is equal on every machine, however busy.
 
 use crate::physics::{Simulation, Tallies};
 use crate::scene::Method;
 
-/// What a frame, a gap, an impact and a turn of `moreau`'s solver cost by a method, in nanoseconds on some machine (an Intel Xeon
-/// of 2026, by least error over `carom measure` of twelve shipped scenes). Only ratios matter; they hold to a factor of three.
+/// What a frame, a gap, an impact and a turn of `moreau`'s solver cost by a method, in nanoseconds on some machine (an
+/// Intel Xeon of 2026, by least error over `carom measure` of twelve shipped scenes). Only ratios matter; they hold to a
+/// factor of three.
 struct Prices {
     frame: u64,
     gap: u64,

@@ -39,8 +39,8 @@ impl Reference {
         Ok(reference)
     }
 
-    /// A certified reference up to `until` (s): its horizon is where the certified error leaves what is `asked` (m), or where
-    /// displaced runs have parted, if that is later.
+    /// A certified reference up to `until` (s): its horizon is where the certified error leaves what is `asked` (m), or
+    /// where displaced runs have parted, if that is later.
     ///
     /// # Errors
     /// If `go_on` returns false.
@@ -53,7 +53,7 @@ impl Reference {
         Ok(reference.with(&certificate, asked))
     }
 
-    /// Its horizon put off to where a certificate's error leaves what is `asked` (m), if that is later.
+    /// The reference with its horizon put off to where a certificate's error leaves what is `asked` (m), if that is later.
     pub(super) fn with(mut self, certificate: &Certificate, asked: f64) -> Reference {
         let until = certificate.within(asked).min(self.end);
         let meaningful = self.meaningful().max(until);

@@ -22,7 +22,7 @@ pub enum Shape {
 /// The approach that led to a contact, while nothing else changed the motion of its bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// Which two bodies.
+    /// The two bodies that approached.
     pub key: Key,
     /// When they touched, s.
     pub time: f64,

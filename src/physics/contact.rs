@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-/// Which two bodies touch.
+/// What a contact is between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// Sphere `a` and wall `b`.
+    /// A sphere and a wall.
     Wall,
-    /// Spheres `a` < `b`.
+    /// Two spheres.
     Pair,
 }
 
@@ -30,9 +30,9 @@ pub type Key = (Kind, usize, usize);
 /// One contact at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// When, s.
+    /// Time of the contact, s.
     pub time: f64,
-    /// Wall or pair.
+    /// Whether a sphere touches a wall or another sphere.
     pub kind: Kind,
     /// The sphere; of a pair the lower index.
     pub a: usize,
@@ -52,12 +52,12 @@ pub struct Contact {
     pub impulse: f64,
     /// Intersection degree −gap / r (pair: / (r₁ + r₂)), dimensionless.
     pub degree: f64,
-    /// What the impact law made of it.
+    /// What the impact law made of the contact.
     pub class: Class,
 }
 
 impl Contact {
-    /// Which two bodies.
+    /// The two bodies of the contact.
     pub fn key(&self) -> Key {
         (self.kind, self.a, self.b)
     }
@@ -68,6 +68,6 @@ impl Contact {
 pub struct Probe {
     /// Length of the trial step from the frame's start, s.
     pub step: f64,
-    /// Largest intersection degree found there, dimensionless (negative: apart).
+    /// Largest intersection degree at the end of the step, dimensionless (negative: apart).
     pub degree: f64,
 }

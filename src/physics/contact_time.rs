@@ -38,7 +38,7 @@ fn quartic_falls(c: &[f64; 5], before: f64) -> ([f64; 3], usize) {
     (falls, count)
 }
 
-/// |x + v t + a t²/2|² − reach², lowest power first.
+/// Σ cᵢ tⁱ = |x + v t + a t²/2|² − `reach`², lowest power first, in m² over sⁱ; `reach` in m.
 pub(super) fn distance_polynomial(path: &Path, reach: f64) -> [f64; 5] {
     let Path { x, v, a } = *path;
     [
@@ -57,7 +57,8 @@ pub fn sphere_sphere(path: &Path, reach: f64, before: f64) -> Option<f64> {
     if path.a == DVec3::ZERO { straight_pair(path.x, path.v, reach) } else { curved_pair(path, reach, before) }
 }
 
-/// Equal accelerations: |x + v t| = reach.
+/// When two spheres of equal acceleration next meet, s from now: the first t at which |x + v t| falls to `reach` (m), for a
+/// relative position `x` (m) and velocity `v` (m/s).
 #[inline]
 pub fn straight_pair(x: DVec3, v: DVec3, reach: f64) -> Option<f64> {
     let b = x.dot(v);
@@ -86,14 +87,15 @@ pub(super) fn is_far(c: f64, reach: f64) -> bool {
     c > FAR * (reach * reach)
 }
 
-/// An approach at one moment, as far as its turning into a retreat depends on it.
-struct Approach {
+/// What decides whether an approach turns into a retreat by itself.
+struct ClosingMotion {
     /// v_n < 0, m/s.
     closing: f64,
     /// How fast v_n grows, m/s².
     bends: f64,
-    /// Relative speed, m/s, and acceleration, m/s²: they bound how fast `bends` changes.
+    /// Relative speed, m/s: with the acceleration it bounds how fast `bends` changes.
     speed: f64,
+    /// Size of the relative acceleration, m/s².
     acceleration: f64,
     /// Radius of curvature, m.
     radius: f64,
@@ -101,7 +103,7 @@ struct Approach {
     size: f64,
 }
 
-impl Approach {
+impl ClosingMotion {
     /// Whether rounding has made an approach that is none. Where a sphere is pressed against one body and slides past
     /// another, it would otherwise be driven into the one and the other in turn, for ever at one instant. An approach that
     /// an impulse has made is none of rounding's, however shallow; that of places turns the normal.
@@ -110,10 +112,10 @@ impl Approach {
         -self.closing <= rounding * self.speed && self.turns_within(GRAZE * self.size)
     }
 
-    /// Whether it turns into a retreat by itself before the gap has shrunk by `room`, m. `bends` must still be positive when
-    /// v_n reaches 0.
+    /// Whether it turns into a retreat by itself before the gap has shrunk by `room`, m. `bends` must still be positive
+    /// when v_n reaches 0.
     fn turns_within(&self, room: f64) -> bool {
-        let Approach { closing, bends, speed, acceleration, radius, .. } = *self;
+        let ClosingMotion { closing, bends, speed, acceleration, radius, .. } = *self;
         let jerk = 3.0 * speed * (acceleration + speed * speed / radius) / radius;
         bends > 0.0 && closing * closing <= 2.0 * bends * room && -2.0 * jerk * closing <= bends * bends
     }
@@ -125,7 +127,7 @@ fn pair_grazes(path: &Path, closing: f64) -> bool {
     let (distance, speed) = (path.x.length(), path.v.length());
     let bends = path.x.dot(path.a) / distance + (speed * speed - closing * closing) / distance;
     let acceleration = path.a.length();
-    Approach { closing, bends, speed, acceleration, radius: distance, size: distance }.grazes()
+    ClosingMotion { closing, bends, speed, acceleration, radius: distance, size: distance }.grazes()
 }
 
 fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
@@ -142,13 +144,14 @@ fn curved_pair(path: &Path, reach: f64, before: f64) -> Option<f64> {
     falls[..count].iter().find_map(|&t| approached_pair(path, reach, t)).filter(|&t| t < before)
 }
 
-/// When a candidate is approached: as [`Search::approached`] for walls. One Newton step on the distance itself, whose
-/// rounding is far below that of its square's polynomial.
+/// When two spheres that touch at about `t` (s) approach, s from now: then, if v_n < 0; where v_n = 0 to rounding is about
+/// to become negative, then too; else not. One Newton step on the distance itself, whose rounding is far below that of its
+/// square's polynomial.
 fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     let (x, v) = (path.at(t), path.velocity(t));
-    let closing = pair_normal_velocity(x, v);
+    let (closing, then) = (pair_normal_velocity(x, v), Path { x, v, a: path.a });
     if closing < 0.0 {
-        if pair_grazes(&Path { x, v, a: path.a }, closing) {
+        if pair_grazes(&then, closing) {
             return None;
         }
         let polished = t - (x.length() - reach) / closing;
@@ -157,9 +160,7 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
     if closing > 1e-13 * (path.v.length() + v.length()) {
         return None;
     }
-    let normal = x / x.length();
-    let across = v - normal * closing;
-    let bends = normal.dot(path.a) + across.length_squared() / x.length();
+    let bends = then.distance_acceleration(x / x.length(), x.length());
     (bends < 0.0).then(|| t - 2.0 * closing / bends)
 }
 
@@ -167,7 +168,7 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
 /// both sides. Only times below `before` (s) matter.
 #[inline]
 pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64> {
-    let search = Search { path, r, face, before };
+    let search = WallSearch { path, r, face, before };
     let height = [face.height(path.x), face.normal.dot(path.v), 0.5 * face.normal.dot(path.a)];
     if height[0].abs() > r {
         let side = if height[0] < 0.0 { -1.0 } else { 1.0 };
@@ -188,17 +189,20 @@ pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64>
     search.everywhere(height)
 }
 
-/// One sphere, one wall.
-struct Search<'a> {
+/// A search for the time at which one sphere next meets one wall.
+struct WallSearch<'a> {
+    /// The sphere's path from now on.
     path: &'a Path,
+    /// The sphere's radius, m.
     r: f64,
     face: &'a Face,
+    /// Only times below this matter, s from now.
     before: f64,
 }
 
-impl Search<'_> {
-    /// Whether the wall is certainly too far away: tiles beside the one that a sphere bounces on, of which the closest point
-    /// takes longer to find. Asked where the plane is within reach, and so is the wall if the foot lies on it.
+impl WallSearch<'_> {
+    /// Whether the wall is certainly too far away: tiles beside the one that a sphere bounces on, of which the closest
+    /// point takes longer to find. Asked where the plane is within reach, and so is the wall if the foot lies on it.
     fn is_out_of_reach(&self) -> bool {
         if self.face.shades(self.path.x) {
             return false;
@@ -207,7 +211,8 @@ impl Search<'_> {
         room > 0.0 && self.path.stays_within(room, self.before)
     }
 
-    /// The earliest of all candidates that hold: faces first, since they bound the time for the quartics.
+    /// The earliest of all candidates that hold, s from now, for the polynomial `height` of the height over the plane (m
+    /// over sⁱ): faces first, since they bound the time for the quartics.
     fn everywhere(&self, height: [f64; 3]) -> Option<f64> {
         let now = touch(self.face, self.path.x, self.r);
         let closing = normal_velocity(self.path.v, DVec3::ZERO, now.normal);
@@ -245,7 +250,8 @@ impl Search<'_> {
         outwards.filter_map(enters).filter(move |&t| t < end && touches(t))
     }
 
-    /// When the centre is within reach of the plane, before `end`: edges and corners need looking at only then.
+    /// The stretches [from, to] (s) before `end` (s) in which the centre is within reach of the plane, and their number:
+    /// edges and corners need looking at only then.
     fn stays(&self, height: [f64; 3], end: f64) -> ([[f64; 2]; 3], usize) {
         // a little more than r, so that rounding at the rim of the slab excludes nothing
         let reach = self.r * (1.0 + 1e-9);
@@ -279,7 +285,7 @@ impl Search<'_> {
         (stays, found)
     }
 
-    /// Edges and corners that the path comes near in [from, to].
+    /// Offers `best` the contacts with edges and corners that the path comes near in [from, to], s.
     fn outline(&self, from: f64, to: f64, best: &mut Best) {
         let corners = self.face.shape.corners();
         let spans = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| self.path.reach(axis, from, to));
@@ -314,8 +320,8 @@ impl Search<'_> {
         }
     }
 
-    /// A candidate holds if the clamped closest point there is at distance r to rounding and approached. Never by
-    /// ranges of (u, v): at a seam both sides would refuse.
+    /// The time (s) of a candidate `t` (s) that holds: the clamped closest point there is at distance r to rounding, and
+    /// approached. Never by ranges of (u, v): at a seam both sides would refuse.
     fn verified(&self, t: f64) -> Option<f64> {
         let (mut t, mut at) = (t, touch(self.face, self.path.at(t), self.r));
         for _ in 0..2 {
@@ -368,7 +374,8 @@ impl Search<'_> {
         // as in `approached`: over an edge a fast sphere leaves what it was pressed against
         let part = part_ahead(self.face, x, v, a, self.r);
         let bends = at.normal.dot(a) + curvature(self.face, part, at.normal, v, self.r);
-        let approach = Approach { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size };
+        let approach =
+            ClosingMotion { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size };
         if ahead { approach.turns_within(room) } else { approach.grazes() }
     }
 
@@ -384,7 +391,9 @@ impl Search<'_> {
 
 /// The earliest time found so far.
 struct Best {
+    /// Later times do not count, s from now.
     time: f64,
+    /// The earliest time taken, s from now; none if none was.
     found: Option<f64>,
 }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// What flight does to a velocity; a type for each [`Pull`](super::model::Pull), so that a loop over spheres contains nothing that the
-/// scene does not require.
+/// What flight does to a velocity; a type for each [`Pull`](super::model::Pull), so that a loop over spheres contains
+/// nothing that the scene does not require.
 pub(super) trait Flight: Copy {
     /// Whether it changes velocities at all.
     const BENDS: bool = true;

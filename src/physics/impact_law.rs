@@ -74,8 +74,8 @@ pub(crate) fn along(normal: DVec3, change: f64) -> DVec3 {
     normal * (change - change * excess)
 }
 
-/// The impulse (N s) on the first of two spheres at offset `arm` (m) with relative velocity `w` (m/s), `share` = 1/m₁ + 1/m₂:
-/// along the arm by its actual length, since a unit normal's rounding would let the energy creep upwards.
+/// The impulse (N s) on the first of two spheres at offset `arm` (m) with relative velocity `w` (m/s), `share` = 1/m₁ +
+/// 1/m₂: along the arm by its actual length, since a unit normal's rounding would let the energy creep upwards.
 #[inline(always)]
 pub(crate) fn pair_push(arm: DVec3, w: DVec3, share: f64, restitution: f64) -> DVec3 {
     arm * (-(1.0 + restitution) * arm.dot(w) / (arm.length_squared() * share))

@@ -4,7 +4,7 @@ use super::approach::Approach;
 use super::contact::{Class, Contact, Key, Probe};
 use super::state::Tallies;
 
-/// Filled by the method; read through [`Simulation`](crate::physics::Simulation).
+/// What a method tells of its run; read through [`Simulation`](crate::physics::Simulation).
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Log {
     /// Every contact of the last frame, in the order in which they were handled.
@@ -19,7 +19,7 @@ pub(crate) struct Log {
     pub(crate) events: Vec<Contact>,
     /// Whether events are kept.
     pub(crate) recording: bool,
-    /// Counted since t = 0.
+    /// Counted work and outcomes since t = 0.
     pub(crate) tallies: Tallies,
     /// Contacts whose rest has begun and not ended, sorted.
     pub(crate) resting: Vec<Key>,
@@ -39,7 +39,8 @@ impl Log {
         }
     }
 
-    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be asked to).
+    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be
+    /// asked to).
     #[inline(always)]
     pub(crate) fn event(&mut self, row: Contact) {
         match row.class {

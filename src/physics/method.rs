@@ -8,8 +8,8 @@ use super::log::Log;
 use super::model::{Method, Model, Settings};
 use super::state::{Stall, State};
 
-/// The largest tolerance of `paper` and `swept`, dimensionless; larger ones count as this one: degree 1 is the centre on the
-/// plane, and a side must stay decided.
+/// The largest tolerance of `paper` and `swept`, dimensionless; larger ones count as this one: degree 1 is the centre on
+/// the plane, and a side must stay decided.
 pub(super) const LARGEST_TOLERANCE: f64 = 0.5;
 
 /// How far one call of [`Simulation::advance`](crate::physics::Simulation::advance) should go.
@@ -38,15 +38,15 @@ pub enum Progress {
 pub struct Description {
     /// The method.
     pub method: Method,
-    /// One line: what it is.
+    /// What the method is, in one line.
     pub summary: &'static str,
-    /// Order of its error, and in which knob.
+    /// Order of the method's error, and in which knob.
     pub order: &'static str,
-    /// Where it comes from.
+    /// The publication that the method comes from.
     pub source: &'static str,
-    /// What its knobs do.
+    /// What the knobs of the method do, in words.
     pub knobs: &'static str,
-    /// When to choose another.
+    /// When to choose another method.
     pub avoid: &'static str,
 }
 

@@ -1,9 +1,24 @@
 //! The door to the physics: a [`Simulation`] of a [`Scene`] by a [`Method`], advanced in slices and read between frames.
 //!
 //! Data flow: scene → [`model`] (what is constant, and only what the scene requires) → one method, which advances a
-//! [`State`] and tells a log of contacts, events and tallies → read through [`Simulation`]. Begin with [`simulation`],
-//! then [`method`]; then `events`, the engine under `exact` and `swept`, or the methods `paper` and `moreau`. What they
-//! share: [`impact_law`], [`contact_time`] (when do bodies touch), [`overlap`] (how deep now), [`support`] (what holds).
+//! [`State`] and tells a log of contacts, events and tallies → read through [`Simulation`]. Begin with [`simulation`], then
+//! [`method`]; then `events`, or the methods `paper` and `moreau`.
+//!
+//! | file | owns |
+//! |---|---|
+//! | [`simulation`], [`method`] | a scene under way; what every method is to the rest |
+//! | `paper`, `moreau`, `exact`, `swept` | the methods |
+//! | `events` | the event engine, on which `exact` and `swept` run |
+//! | [`model`], [`requirements`], `closed_room` | what is constant, what a scene requires, and which edges no sphere reaches |
+//! | [`state`], `conserved` | what moves, tallies and stalls; energy and momentum |
+//! | [`contact`], `approach`, `log` | a contact as it is told; how its bodies came together; all that a run tells |
+//! | [`impact_law`], `frame_contact` | the impact law; a contact at the end of a frame, before it is answered |
+//! | [`path`], `free_flight` | a centre between contacts; what flight does to velocities |
+//! | [`contact_time`] | when bodies next touch |
+//! | [`wall`], `wall_parts` | a wall, the closest part of it, and which part comes next |
+//! | [`overlap`], [`neighbors`] | how deep bodies overlap now, and which may |
+//! | [`support`] | what holds resting spheres up |
+//! | `law_fault` | the impact law broken on purpose, for a test |
 //!
 //! ```
 //! use carom::physics::{Progress, Simulation};
@@ -17,8 +32,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the
-//! same bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
+//! Nothing in here knows of snapshots, threads, clocks, files or the screen. Same scene, method and settings give the same
+//! bits on every machine: only + − × ÷ √ on `f64`, in an order fixed by the indices.
 
 mod approach;
 mod closed_room;

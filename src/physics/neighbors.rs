@@ -47,7 +47,7 @@ pub(crate) struct Cells {
     cell: Vec<u32>,
     /// Spheres by cell.
     balls: Vec<Ball>,
-    /// Their indices.
+    /// Sphere indices, in the order of `balls`.
     ids: Vec<u32>,
 }
 
@@ -98,7 +98,7 @@ impl Cells {
         }
     }
 
-    /// All are counted: where each cell begins.
+    /// Computes where each cell begins, once all spheres are counted.
     pub(crate) fn open(&mut self) {
         let mut total = 0;
         for (start, head) in self.starts.iter_mut().zip(&mut self.heads) {
@@ -128,7 +128,7 @@ impl Cells {
         self.pairs_until(cells, near, || false)
     }
 
-    /// Does what [`Cells::pairs`] does, up to any sphere from which on `enough` says so.
+    /// Calls `near` as [`Cells::pairs`] does, until `enough` is true. The number of distances computed.
     #[inline]
     pub(crate) fn pairs_until(
         &self,
@@ -160,7 +160,7 @@ impl Cells {
         distances
     }
 
-    /// Where the spheres of a cell are.
+    /// The range of a cell's spheres in `balls`.
     fn span(&self, c: usize) -> Range<usize> {
         self.starts[c] as usize..self.starts[c + 1] as usize
     }

@@ -16,7 +16,7 @@ use super::wall::Face;
 
 /// Where and how deep two bodies touch (negative degree: apart).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
+pub struct Intersection {
     /// Contact point, m: on the wall, or on the line of centres in the middle of the overlap.
     pub point: DVec3,
     /// Unit normal, from the contact point to the (first) sphere's centre.
@@ -28,24 +28,28 @@ pub struct Touch {
 /// Two bodies that touch or overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// Which two.
+    /// The two bodies that overlap.
     pub key: Key,
-    /// How deep, dimensionless.
+    /// Intersection degree, dimensionless.
     pub degree: f64,
 }
 
-/// A sphere of radius `r` (m) at `x` against a wall. The side it is on is decided by its centre's way from `from` (m),
-/// the frame's start: where that way leads through the face, the degree goes on growing beyond 1 past the plane, so
+/// How a sphere of radius `r` (m) at `x` (m) touches a wall. The side it is on is decided by its centre's way from `from`
+/// (m), the frame's start: where that way leads through the face, the degree goes on growing beyond 1 past the plane, so
 /// that no search accepts the far side.
-pub fn wall_touch(face: &Face, from: DVec3, x: DVec3, r: f64) -> Touch {
+pub fn wall_touch(face: &Face, from: DVec3, x: DVec3, r: f64) -> Intersection {
     let height = face.height(x);
     if face.shades(x) {
         let side = side(face, from, x, height);
-        return Touch { point: x - face.normal * height, normal: face.normal * side, degree: 1.0 - side * height / r };
+        return Intersection {
+            point: x - face.normal * height,
+            normal: face.normal * side,
+            degree: 1.0 - side * height / r,
+        };
     }
     let arm = face.shape.closest(x).offset;
     let distance = arm.length();
-    Touch { point: x - arm, normal: arm / distance, degree: 1.0 - distance / r }
+    Intersection { point: x - arm, normal: arm / distance, degree: 1.0 - distance / r }
 }
 
 /// +1 or −1: the side of the face from which a centre came to `x` at this height (m) over the plane.
@@ -62,18 +66,18 @@ pub fn touching(r: f64, at: f64) -> f64 {
     (1e-12 * r).max(8.0 * f64::EPSILON * at)
 }
 
-/// Spheres at `a` and `b` (m) of radii `r_a` and `r_b` (m).
-pub fn pair_touch(a: DVec3, b: DVec3, r_a: f64, r_b: f64) -> Touch {
+/// How two spheres at `a` and `b` (m) of radii `r_a` and `r_b` (m) touch.
+pub fn pair_touch(a: DVec3, b: DVec3, r_a: f64, r_b: f64) -> Intersection {
     let (arm, reach) = (a - b, r_a + r_b);
     let distance = arm.length();
     // Coincident centres have no normal: any fixed one separates them.
     let normal = if distance > 0.0 { arm / distance } else { DVec3::Y };
     let degree = 1.0 - distance / reach;
-    Touch { point: b + normal * (r_b - 0.5 * degree * reach), normal, degree }
+    Intersection { point: b + normal * (r_b - 0.5 * degree * reach), normal, degree }
 }
 
 /// The bodies of `key` as they touch in a state with centres `x` (m); `from` as in [`wall_touch`].
-pub fn touch(model: &Model, from: &[DVec3], x: &[DVec3], (kind, a, b): Key) -> Touch {
+pub fn touch(model: &Model, from: &[DVec3], x: &[DVec3], (kind, a, b): Key) -> Intersection {
     match kind {
         Kind::Wall => wall_touch(&model.faces[b], from[a], x[a], model.radii[a]),
         Kind::Pair => pair_touch(x[a], x[b], model.radii[a], model.radii[b]),
@@ -133,13 +137,13 @@ pub struct Finder {
     at_load: bool,
     /// How many of the overlaps are with walls.
     walls: usize,
-    stage: Stage,
+    stage: FinderStage,
     cells: Option<Cells>,
 }
 
 /// What the pair search does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Stage {
+enum FinderStage {
     /// Lays out the cells.
     #[default]
     Open,
@@ -152,7 +156,7 @@ enum Stage {
 /// Spheres or cells worked on between two looks at the budget.
 pub const CHUNK: usize = 4096;
 
-/// Why there are cells.
+/// Why a finder that looks into its cells has them.
 const CELLS: &str = "a finder for a model whose pairs are found by cells has cells";
 
 /// By how much radii grow for the coarse tests at load: more than [`touching`] allows up to 5e8 radii from the origin.
@@ -192,7 +196,7 @@ impl Finder {
     pub fn begin(&mut self) {
         self.found.clear();
         self.evaluations = 0;
-        self.stage = Stage::Open;
+        self.stage = FinderStage::Open;
         if let Some(cells) = &mut self.cells {
             cells.clear();
         }
@@ -220,7 +224,7 @@ impl Finder {
         }
     }
 
-    /// A sphere near the plane of a wall.
+    /// Measures sphere `i` near the plane of wall `w`, and keeps the overlap if there is one.
     #[cold]
     #[inline(never)]
     fn meet(&mut self, model: &Model, from: DVec3, x: DVec3, (i, w): (usize, usize)) {
@@ -265,23 +269,23 @@ impl Finder {
         let growth = self.growth();
         let cells = self.cells.as_mut().expect(CELLS);
         match self.stage {
-            Stage::Open => {
+            FinderStage::Open => {
                 cells.open();
                 self.walls = self.found.len();
-                self.stage = Stage::Scatter(0);
+                self.stage = FinderStage::Scatter(0);
                 (false, cells.len() as u64 / 4)
             }
-            Stage::Scatter(from) => {
+            FinderStage::Scatter(from) => {
                 let to = x.len().min(from + CHUNK);
                 cells.scatter(x, &model.radii, growth, from..to);
-                self.stage = if to < x.len() { Stage::Scatter(to) } else { Stage::Measure(0) };
+                self.stage = if to < x.len() { FinderStage::Scatter(to) } else { FinderStage::Measure(0) };
                 (false, (to - from) as u64)
             }
-            Stage::Measure(from) => {
+            FinderStage::Measure(from) => {
                 let to = cells.len().min(from + CHUNK);
                 let last = to == cells.len();
                 let work = self.measure(model, x, from..to);
-                self.stage = Stage::Measure(to);
+                self.stage = FinderStage::Measure(to);
                 (last, work)
             }
         }

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// The path of a centre, or of one centre seen from another: x + v t + a t²/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Path {
-    /// Where at t = 0, m.
+    /// Position at t = 0, m.
     pub x: DVec3,
     /// Velocity at t = 0, m/s.
     pub v: DVec3,
@@ -26,10 +26,18 @@ impl Path {
         self.v + self.a * t
     }
 
-    /// This path seen from `other`.
+    /// The path relative to a centre that moves on `other`: the differences of position, velocity and acceleration.
     #[inline]
     pub fn relative_to(&self, other: &Path) -> Path {
         Path { x: self.x - other.x, v: self.v - other.v, a: self.a - other.a }
+    }
+
+    /// Second derivative of the distance from the origin, m/s²: n·a + |v_⊥|²/|x|, for the unit vector `normal` along x and
+    /// the distance |x|, m.
+    #[inline]
+    pub(super) fn distance_acceleration(&self, normal: DVec3, distance: f64) -> f64 {
+        let across = self.v - normal * normal.dot(self.v);
+        normal.dot(self.a) + across.length_squared() / distance
     }
 
     /// True if the displacement certainly stays below `way` (m) until `time` (s), by the triangle inequality: the cheap
@@ -39,7 +47,7 @@ impl Path {
         way * (1.0 - 1e-9) > (self.v.length() + 0.5 * self.a.length() * time) * time
     }
 
-    /// Bounds of a coordinate along `axis` (any vector) over [from, to] (s).
+    /// Least and largest coordinate along `axis` (any vector) over [from, to] (s), m times the length of the axis.
     pub(super) fn reach(&self, axis: DVec3, from: f64, to: f64) -> (f64, f64) {
         let (v, a) = (axis.dot(self.v), axis.dot(self.a));
         let start = axis.dot(self.at(from));

@@ -14,21 +14,21 @@ pub enum PairSearch {
 /// What a scene requires; whatever is zero, false or `None` here is absent from its model and costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Requirements {
-    /// Spheres.
+    /// Number of spheres.
     pub spheres: usize,
     /// Whether gravity acts.
     pub gravity: bool,
-    /// Spheres with a force of their own.
+    /// Number of spheres with a force of their own.
     pub forces: usize,
-    /// Walls.
+    /// Number of walls.
     pub walls: usize,
     /// Edges of walls that a sphere can reach: four per wall, none of a closed room's six walls.
     pub open_edges: usize,
-    /// Pairs of spheres.
+    /// Number of pairs of spheres.
     pub pairs: u64,
     /// How pairs that may touch are found.
     pub search: PairSearch,
-    /// Cells the spheres are sorted into.
+    /// Number of cells the spheres are sorted into.
     pub cells: usize,
 }
 

@@ -45,13 +45,13 @@ pub fn slack(method: Method) -> Option<f64> {
 /// The methods, dispatched once per call.
 #[derive(Debug, Clone)]
 enum Engines {
-    /// The source paper's.
+    /// `paper`, the source paper's method.
     Paper(paper::Paper),
-    /// Event by event, contact times found by looking.
+    /// `swept`: event by event, contact times by conservative advancement.
     Swept(swept::Swept),
-    /// Event by event, contact times by roots.
+    /// `exact`: event by event, contact times by roots.
     Exact(exact::Exact),
-    /// Velocity-level time-stepping.
+    /// `moreau`: velocity-level time-stepping.
     Moreau(moreau::Moreau),
 }
 
@@ -95,8 +95,8 @@ impl Simulation {
     /// what else there is to do. No bit of a result depends on it.
     pub const SLICE: u64 = 20_000;
 
-    /// A simulation of `scene` at t = 0, the contacts found there already handled; of a scene that goes on from another run,
-    /// at the time of that: by its settings bit for bit, by others as if they were changed there.
+    /// A simulation of `scene` at t = 0, the contacts found there already handled; of a scene that goes on from another
+    /// run, at the time of that: by its settings bit for bit, by others as if they were changed there.
     pub fn new(scene: &Scene, settings: Settings) -> Simulation {
         if let Some(resume) = &scene.resume {
             let mut run = Simulation::resumed(scene, scene.solver, resume.t, &resume.transient);
@@ -112,9 +112,9 @@ impl Simulation {
         Simulation { model: Arc::new(model), settings, engine, log, initial_energy, stall }
     }
 
-    /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t`
-    /// (s): `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said
-    /// then. Tallies count from here. `exact` and `swept` do the run up to here again when it is first told to advance, within
+    /// A simulation that goes on bit for bit where another one of the same scene, method and settings was at time `t` (s):
+    /// `scene` holds the positions and velocities of that moment, `transient` what [`Simulation::transient`] said then.
+    /// Tallies count from here. `exact` and `swept` do the run up to here again when it is first told to advance, within
     /// the work it is given.
     pub fn resumed(scene: &Scene, settings: Settings, t: f64, transient: &[DVec3]) -> Simulation {
         let mut model = Model::new(scene);
@@ -176,12 +176,15 @@ impl Simulation {
         each!(&self.engine, engine => engine.at(&self.model, t))
     }
 
-    /// With t, x and v all that a run continues from. `paper`: impulses decided at the end of the last frame that act
-    /// in the next, N s by sphere; then what its watchdog has counted, on which depends when it gives up frames that shrink
-    /// without end: since when, s, how many were cut short, and how long they should have taken at least, s. `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere,
-    /// since the rounding of its later states follows from nothing less; empty if `swept` has changed its tolerance, and
-    /// then the continuation is the same to rounding only. `moreau`: as many rows as contacts held in the last frame:
-    /// sphere, other sphere (or −1 − wall), impulse in N s.
+    /// With t, x and v all that a run continues from.
+    ///
+    /// - `paper`: impulses decided at the end of the last frame that act in the next, N s by sphere; then what its watchdog
+    ///   has counted, on which depends when it gives up frames that shrink without end: since when, s, how many were cut
+    ///   short, and how long they should have taken at least, s.
+    /// - `exact` and `swept`: how the run began, (t, 0, 0), then x (m) and v (m/s) by sphere, since the rounding of its
+    ///   later states follows from nothing less; empty if `swept` has changed its tolerance, and then the continuation is
+    ///   equal to rounding only.
+    /// - `moreau`: a row for each contact that held in the last frame: sphere, other sphere (or −1 − wall), impulse in N s.
     pub fn transient(&self) -> Vec<DVec3> {
         each!(&self.engine, engine => engine.transient(&self.model))
     }
@@ -208,7 +211,8 @@ impl Simulation {
         self.log.explaining = on;
     }
 
-    /// How the bodies of the last frame's contacts came together, of methods that follow single events, if it was asked for.
+    /// How the bodies of the last frame's contacts came together, of methods that follow single events, if it was asked
+    /// for.
     pub fn approaches(&self) -> &[Approach] {
         &self.log.approaches
     }
@@ -236,7 +240,7 @@ impl Simulation {
         }
     }
 
-    /// Counted since t = 0.
+    /// Counted work and outcomes since t = 0.
     pub fn tallies(&self) -> Tallies {
         self.log.tallies
     }
@@ -246,9 +250,9 @@ impl Simulation {
         self.now().energy(&self.model)
     }
 
-    /// Energy (J) at the end of the last frame that the state does not show: an event-driven method lets a sphere that bounces
-    /// lower than 1e-12 r off a wall that rubs go on with the mean velocity of all its bounces until they are over. Energy
-    /// and this together never rise.
+    /// Energy (J) at the end of the last frame that the state does not show: an event-driven method lets a sphere that
+    /// bounces lower than 1e-12 r off a wall that rubs go on with the mean velocity of all its bounces until they are over.
+    /// Energy and this together never rise.
     pub fn hidden_energy(&self) -> f64 {
         match &self.engine {
             Engines::Swept(engine) => engine.hidden_energy(&self.model),
@@ -257,8 +261,8 @@ impl Simulation {
         }
     }
 
-    /// The same of a state of [`Simulation::at`], J: within a frame of `moreau`, what its spheres still gain by falling until the
-    /// frame ends, with the velocities that they have there; otherwise 0.
+    /// Energy (J) that a state of [`Simulation::at`] does not show: within a frame of `moreau`, what its spheres still gain
+    /// by falling until the frame ends, with the velocities that they have there; otherwise 0.
     pub fn hidden_energy_at(&self, state: &State) -> f64 {
         match &self.engine {
             Engines::Moreau(engine) => engine.hidden_energy_at(&self.model, state),
@@ -271,12 +275,12 @@ impl Simulation {
         self.initial_energy
     }
 
-    /// What is being solved with.
+    /// The settings in force.
     pub fn settings(&self) -> Settings {
         self.settings
     }
 
-    /// From the next frame on, solve with other settings. A run that stalled tries again.
+    /// Solves with other settings from the next frame on. A run that stalled tries again.
     pub fn set_settings(&mut self, settings: Settings) {
         let Simulation { model, engine, log, .. } = self;
         if settings.method == self.settings.method {

@@ -64,8 +64,8 @@ pub struct Tallies {
 pub const LARGEST: f64 = 1e75;
 
 /// The one place where motion that is no number, or runs away beyond [`LARGEST`], is found and ends a run: nothing, or the
-/// sphere, the time (s) and the `cause`, which goes on after a colon. The door asks it of all spheres before a method
-/// begins; each method asks it where it has changed a motion.
+/// sphere, the time (s) and the `cause`, which goes on after a colon. It is asked of all spheres before a method begins,
+/// and by each method where it has changed a motion.
 #[inline(always)]
 pub(super) fn runaway(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Option<Stall> {
     let held = |u: DVec3| (u.x.abs() <= LARGEST) & (u.y.abs() <= LARGEST) & (u.z.abs() <= LARGEST);
@@ -86,7 +86,7 @@ fn ran_away(sphere: usize, t: f64, [x, v]: [DVec3; 2], cause: &str) -> Stall {
 /// Why a run cannot go on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stall {
-    /// When, s.
+    /// Time of the stall, s.
     pub time: f64,
     /// What kind of stall it is.
     pub kind: StallKind,

@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
+use super::support::Surface;
 use crate::geometry::Parallelogram;
 
 /// A wall with what its tests need: unit normal and the dual vectors of its edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
-    /// Centre, edges, m.
+    /// Centre and edges, m.
     pub shape: Parallelogram,
     /// Unit normal s1 × s2 / |s1 × s2|; contacts flip it to the sphere's side.
     pub normal: DVec3,
@@ -36,7 +37,7 @@ impl Face {
         (p - self.shape.center).dot(self.normal)
     }
 
-    /// What rounding of its corners is relative to, m: no coordinate of theirs is larger.
+    /// What rounding of the corners is relative to, m: no coordinate of a corner is larger.
     pub fn size(&self) -> f64 {
         let Parallelogram { center, s1, s2 } = self.shape;
         (center.abs() + 0.5 * (s1.abs() + s2.abs())).max_element()
@@ -64,7 +65,7 @@ impl Face {
 /// runs from corner k to corner k + 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// Its inside.
+    /// The inside of the parallelogram.
     Face,
     /// An edge without its ends.
     Edge(u8),
@@ -75,11 +76,11 @@ pub enum Part {
 /// A sphere against a wall: where, along which normal, how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// What is touched.
+    /// The part of the wall that is touched.
     pub part: Part,
-    /// The closest point, m.
+    /// The point of the wall that is closest to the centre, m.
     pub point: DVec3,
-    /// Unit normal from it to the centre.
+    /// Unit normal from the closest point to the centre.
     pub normal: DVec3,
     /// Distance of the centre from the closest point − r, m.
     pub gap: f64,
@@ -138,15 +139,16 @@ pub fn edge_direction(face: &Face, k: u8) -> DVec3 {
     side / side.length()
 }
 
+/// The shape of a part of a wall, `radius` (m) from a sphere's centre.
+pub(crate) fn surface(face: &Face, part: Part, radius: f64) -> Surface {
+    match part {
+        Part::Face => Surface::Face,
+        Part::Edge(k) => Surface::Edge { along: edge_direction(face, k), radius },
+        Part::Corner(_) => Surface::Round { radius },
+    }
+}
+
 /// What the curvature of a touched part adds to the second derivative of the gap, m/s²: |v_⊥|²/r at an edge or corner.
 pub fn curvature(face: &Face, part: Part, normal: DVec3, v: DVec3, r: f64) -> f64 {
-    let across = v - normal * normal.dot(v);
-    match part {
-        Part::Face => 0.0,
-        Part::Edge(k) => {
-            let along = edge_direction(face, k);
-            (across - along * along.dot(across)).length_squared() / r
-        }
-        Part::Corner(_) => across.length_squared() / r,
-    }
+    surface(face, part, r).curvature_term(normal, v)
 }

@@ -12,32 +12,33 @@ use crate::roots::quadratic_fall;
 /// A plane beyond which another part takes over: `normal`·(x − `at`) is the room left, m.
 #[derive(Clone, Copy)]
 struct Border {
+    /// A point of the plane, m.
     at: DVec3,
     /// Unit vector into the part.
     inward: DVec3,
 }
 
 /// The corners of a wall, and the unit vectors along its edges and outwards from them.
-struct Outline {
+struct Sides {
     corners: [DVec3; 4],
     along: [DVec3; 4],
     outward: [DVec3; 4],
 }
 
-impl Outline {
-    fn of(face: &Face) -> Outline {
+impl Sides {
+    fn of(face: &Face) -> Sides {
         let corners = face.shape.corners();
         let along = [0, 1, 2, 3].map(|k: usize| {
             let side = corners[(k + 1) % 4] - corners[k];
             side / side.length()
         });
         let (one, two) = (face.dual1 / face.dual1.length(), face.dual2 / face.dual2.length());
-        Outline { corners, along, outward: [-two, one, two, -one] }
+        Sides { corners, along, outward: [-two, one, two, -one] }
     }
 
     /// The borders of a part: four of a face, three of an edge, two of a corner.
     fn borders(&self, part: Part) -> ([Border; 4], usize) {
-        let Outline { corners, along, outward } = self;
+        let Sides { corners, along, outward } = self;
         let border = |at: usize, inward: DVec3| Border { at: corners[at % 4], inward };
         match part {
             Part::Face => ([0, 1, 2, 3].map(|k| border(k, -outward[k])), 4),
@@ -64,7 +65,7 @@ impl Outline {
 /// How far the point closest to `x` is inside a part of a wall, m: the least distance to where another part takes over;
 /// negative beyond.
 pub(crate) fn room(face: &Face, part: Part, x: DVec3) -> f64 {
-    Outline::of(face).room(part, x)
+    Sides::of(face).room(part, x)
 }
 
 /// How far beyond a border at which it begins a contact belongs to the next part, in radii or coordinates, whichever are
@@ -82,7 +83,7 @@ pub(crate) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64
         let room = if room > least { room } else { room + least };
         quadratic_fall([room, n.dot(path.v), 0.5 * n.dot(path.a)])
     };
-    let (borders, count) = Outline::of(face).borders(part);
+    let (borders, count) = Sides::of(face).borders(part);
     borders[..count].iter().filter_map(end).filter(|&t| t < before).reduce(f64::min)
 }
 
@@ -95,7 +96,7 @@ pub(crate) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> P
     let direction = if v == DVec3::ZERO { a } else { v };
     let length = direction.length();
     let look = if length > 0.0 { x + direction * (ahead / length) } else { x };
-    let outline = Outline::of(face);
+    let outline = Sides::of(face);
     let mut best = (Part::Face, outline.room(Part::Face, look));
     for part in (0..4).map(Part::Edge).chain((0..4).map(Part::Corner)) {
         let room = outline.room(part, look);

@@ -5,16 +5,16 @@ use crate::scene::{Method, Settings};
 /// A change of settings while a run is recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
-    /// Frames completed then.
+    /// Number of frames completed before the change.
     pub frame: u64,
     /// Whether the next frame had been tried, and could not be.
     pub stalled: bool,
-    /// What the run is solved with from there on.
+    /// Settings of the run from the change on.
     pub settings: Settings,
 }
 
 impl Change {
-    /// As a line of a file, without its end: `change 120 made exact 0.01 0.001`.
+    /// The change as a line of a file, without its end: `change 120 made exact 0.01 0.001`.
     pub(super) fn line(&self) -> String {
         let Change { frame, stalled, settings: Settings { method, dt, tolerance } } = *self;
         let when = if stalled { STALLED } else { MADE };
@@ -35,9 +35,9 @@ impl Change {
     }
 }
 
-/// Made between two frames.
+/// Word of a change made between two frames.
 const MADE: &str = "made";
-/// Made where a run could not go on.
+/// Word of a change made where a run could not go on.
 const STALLED: &str = "stalled";
 
 /// Settings as a file says them, if they are in their ranges.

@@ -9,7 +9,7 @@ use crate::scene::{Method, Settings};
 /// The first line of every recording.
 const MAGIC: &str = "carom recording 2";
 
-/// The first line of those that knew no changes of settings.
+/// The first line of recordings that knew no changes of settings.
 const WITHOUT_CHANGES: &str = "carom recording 1";
 
 /// Largest file that is read, MiB.
@@ -18,13 +18,13 @@ pub const LARGEST: u64 = 128;
 /// A run: its scene, its settings and their changes, and the sums of every frame, as it ended, before any change there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
-    /// What the scene was opened as, printable.
+    /// Name by which the scene was opened, printable.
     pub key: String,
     /// The scene's text.
     pub scene: String,
-    /// What it was solved with at first.
+    /// Settings at the start of the run.
     pub settings: Settings,
-    /// What was changed on the way, in the order in which it was.
+    /// Changes of settings on the way, in their order in time.
     pub changes: Vec<Change>,
     /// The sums of the state at the start, then at the end of every frame.
     pub frames: Vec<Sums>,
@@ -33,13 +33,13 @@ pub struct Recording {
 /// Why bytes are no recording. Displays as a sentence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum BadRecording {
-    /// It does not begin as one.
+    /// The bytes do not begin as a recording.
     Foreign,
-    /// A line of its head is missing or says something else.
+    /// A line of the head is missing or says something else.
     Line(&'static str),
-    /// It ends early: so many bytes are missing.
+    /// The recording ends early, by this many bytes.
     Short(usize),
-    /// So many bytes follow its end.
+    /// Bytes follow the end of the recording, this many.
     Long(usize),
 }
 

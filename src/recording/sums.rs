@@ -12,7 +12,7 @@ pub struct Sums([u32; 2]);
 /// What differs between two states, as far as their sums tell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Suspect {
-    /// This sphere alone.
+    /// One sphere alone, by its index.
     Sphere(usize),
     /// The time alone.
     Time,
@@ -21,7 +21,7 @@ pub enum Suspect {
 }
 
 impl Sums {
-    /// Bytes that they take in a file.
+    /// Bytes that the sums take in a file.
     pub const BYTES: usize = 8;
 
     /// The sums of a state.
@@ -63,7 +63,7 @@ impl Sums {
     }
 }
 
-/// The odd number of a body.
+/// The odd number that the word of a body is multiplied by in the second sum.
 fn number(index: usize) -> u32 {
     (index as u32).wrapping_mul(2).wrapping_add(1)
 }

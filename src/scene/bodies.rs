@@ -30,7 +30,7 @@ impl<T> Bodies<T> {
         self.entries[body] as usize
     }
 
-    /// Which body of its entry it is, if the entry made several.
+    /// Place of a body among those of its entry, if the entry made several.
     fn place_in_entry(&self, body: usize) -> Option<usize> {
         let first = self.entries.partition_point(|&entry| entry < self.entries[body]);
         let next = self.entries.partition_point(|&entry| entry <= self.entries[body]);

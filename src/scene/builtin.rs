@@ -3,9 +3,9 @@
 /// A scene of `scenes/`, as written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Builtin {
-    /// Its name: the file's, without the ending.
+    /// Name of the scene: the file's, without the ending.
     pub name: &'static str,
-    /// Its text.
+    /// Text of the scene's file.
     pub text: &'static str,
 }
 
@@ -16,7 +16,7 @@ macro_rules! embedded {
     };
 }
 
-/// All of `scenes/`, the paper's five first. A test refuses a file that is missing here.
+/// Every scene of `scenes/`, the paper's five first. A test refuses a file that is missing here.
 pub const ALL: &[Builtin] = embedded![
     "paper-0",
     "paper-1",

@@ -13,14 +13,14 @@ pub(super) const SLANTED: u64 = 8;
 /// What noting a wall in a cell of a gas takes, in comparisons of boxes; the note is kept too.
 pub(super) const NOTED: u64 = 16;
 
-/// The comparisons that are left.
+/// The comparisons that reading a scene has left.
 #[derive(Debug)]
 pub(super) struct Effort {
     left: Cell<u64>,
 }
 
 impl Effort {
-    /// All of them.
+    /// The effort of a scene of which nothing is read yet.
     pub(super) fn whole() -> Effort {
         Effort { left: Cell::new(MOST) }
     }
@@ -31,12 +31,12 @@ impl Effort {
         !self.spent()
     }
 
-    /// Whether there were too many. What was found since is not to be believed.
+    /// Whether there were too many comparisons. What was found since is not to be believed.
     pub(super) fn spent(&self) -> bool {
         self.left.get() == 0
     }
 
-    /// The refusal of a scene that takes more.
+    /// The refusal of a scene that takes more comparisons.
     pub(super) fn refusal() -> String {
         format!(
             "placing and checking its bodies takes more than {MOST:e} comparisons, which is refused; allowed are fewer \

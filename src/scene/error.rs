@@ -12,8 +12,8 @@ const ORIGIN: usize = 200;
 /// Longest message shown, characters: a list of all built-in names fits.
 const MESSAGE: usize = 1500;
 
-/// A refused scene or configuration. Displays as `FILE:LINE:COLUMN: field.path: what is wrong and what is allowed`, in one line of
-/// bounded length, without control or direction-changing characters.
+/// A refused scene or configuration. Displays as `FILE:LINE:COLUMN: field.path: what is wrong and what is allowed`, in one
+/// line of bounded length, without control or direction-changing characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
     origin: String,
@@ -33,12 +33,12 @@ impl Error {
         }
     }
 
-    /// Where in the file, if it is about a place there.
+    /// Where in the file the refused value stands; none if the refusal is of no place in it.
     pub fn position(&self) -> Option<Position> {
         self.position
     }
 
-    /// The field, as `spheres[3].mass`; empty if it is about none.
+    /// The refused field, as `spheres[3].mass`; empty if there is none.
     pub fn field(&self) -> &str {
         &self.field
     }
@@ -64,7 +64,7 @@ impl std::error::Error for Error {}
 pub(crate) struct Source<'a> {
     /// The whole file.
     pub(crate) text: &'a str,
-    /// Its path or built-in name.
+    /// Path or built-in name of the text.
     pub(crate) origin: &'a str,
 }
 

@@ -71,7 +71,7 @@ pub(super) fn strewn(
     if obstacles.effort.spent() { Err(Effort::refusal()) } else { strewn }
 }
 
-/// Random insertion; none if the draws run out.
+/// Centres (m) by random insertion; none if the draws run out.
 fn inserted(field: &Field, inner: Bounds, count: usize, draw: &mut SplitMix64) -> Option<Vec<DVec3>> {
     let mut gas = Placed::new(field, count);
     for _ in 0..count.saturating_mul(DRAWS) + 1000 {
@@ -89,7 +89,8 @@ fn inserted(field: &Field, inner: Bounds, count: usize, draw: &mut SplitMix64) -
     None
 }
 
-/// Strewn over lattices, from the widest that has a cell for each to the tightest; the error is the most that fitted.
+/// Centres (m) strewn over lattices, from the widest that has a cell for each sphere to the tightest; the error is the most
+/// spheres that fitted.
 fn latticed(field: &Field, bounds: Bounds, count: usize, draw: &mut SplitMix64) -> Result<Vec<DVec3>, usize> {
     let volume_per_sphere = bounds.size() / (count as f64);
     let mut spacing = cube_root(volume_per_sphere.x * bounds.size().y * bounds.size().z).max(2.0 * field.r);
@@ -115,7 +116,7 @@ fn latticed(field: &Field, bounds: Bounds, count: usize, draw: &mut SplitMix64) 
     }
 }
 
-/// Up to `count` centres in the cells of one lattice, the cells in random order.
+/// Up to `count` centres (m) in the cells of one lattice, the cells in random order.
 fn on_lattice(field: &Field, bounds: Bounds, counts: DVec3, count: usize, draw: &mut SplitMix64) -> Vec<DVec3> {
     let cell = bounds.size() / counts;
     // Rounding may leave the tightest cell a little too tight; the spheres then touch, which is no overlap.
@@ -159,7 +160,7 @@ struct Field<'a> {
     /// Along each axis, from where to where the spheres of each cell reach, m.
     ends: [Vec<[f64; 2]>; 3],
     obstacles: &'a Obstacles<'a>,
-    /// Per cell: walls first, spheres after them.
+    /// The obstacles that reach into each cell: walls first, spheres after them.
     reaching: Vec<Vec<u32>>,
 }
 
@@ -234,7 +235,7 @@ impl<'a> Field<'a> {
         rows.flat_map(move |row| row + low[2]..=row + high[2])
     }
 
-    /// Whether a sphere there is clear of every wall and of the spheres listed before.
+    /// Whether a sphere at `center` (m) is clear of every wall and of the spheres listed before.
     fn is_free(&self, center: DVec3) -> bool {
         let walls = self.obstacles.walls;
         // A box as thin as the spheres leaves only places that touch: rounding must not close them.
@@ -264,7 +265,7 @@ fn cells(bounds: Bounds, count: usize, r: f64) -> (f64, [usize; 3]) {
     }
 }
 
-/// From where to where spheres of radius `r` reach that have their centres in each of `count` cells between two borders,
+/// The stretches that spheres of radius `r` (m) reach that have their centres in each of `count` cells between two borders,
 /// m. The last cell has all that is left.
 fn ends([min, max]: [f64; 2], cell: f64, count: usize, r: f64) -> Vec<[f64; 2]> {
     // A hair's breadth more than the cells: rounding may put a centre on either side of their border.

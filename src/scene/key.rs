@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::printable;
 
-/// Longest key, characters.
+/// Most characters of a key.
 const KEY: usize = 100;
 
 /// The file stem of a path, or the name itself, printable and of bounded length.

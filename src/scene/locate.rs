@@ -4,18 +4,18 @@
 /// One step down from a value to a part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Step<'a> {
-    /// The field of that name.
+    /// To the field of that name.
     Field(&'a str),
-    /// The element of that index.
+    /// To the element of that index.
     Index(usize),
 }
 
 /// A place in a text; both count from 1, columns in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Position {
-    /// Line.
+    /// Line, from 1.
     pub line: usize,
-    /// Column.
+    /// Column, from 1, in characters.
     pub column: usize,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Scan<'a> {
         self.rest().starts_with(expected).then(|| self.at += expected.len_utf8())
     }
 
-    /// Past white space and comments.
+    /// Moves past white space and comments.
     fn skip_blank(&mut self) {
         loop {
             self.skip_while(|c| c.is_whitespace() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{feff}'));
@@ -85,7 +85,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Past one block comment; they nest.
+    /// Moves past one block comment; block comments nest.
     fn skip_block_comment(&mut self) {
         let mut depth = 0_usize;
         while !self.rest().is_empty() {
@@ -106,7 +106,7 @@ impl<'a> Scan<'a> {
         self.at += self.rest().chars().next().map_or(0, char::len_utf8);
     }
 
-    /// Past `#![enable(…)]` lines.
+    /// Moves past `#![enable(…)]` lines.
     fn skip_attributes(&mut self) {
         self.skip_blank();
         while self.rest().starts_with("#!") {
@@ -115,7 +115,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Into the value under the cursor: past its name, if any, and its opening bracket.
+    /// Moves into the value under the cursor: past its name, if any, and its opening bracket.
     fn enter(&mut self) -> Option<()> {
         self.skip_blank();
         self.identifier();
@@ -129,7 +129,7 @@ impl<'a> Scan<'a> {
         self.text[start..self.at].trim_start_matches("r#")
     }
 
-    /// To the value of the field of that name, among those of the struct just entered.
+    /// Moves to the value of the field of that name, among those of the struct just entered.
     fn find_field(&mut self, name: &str) -> Option<()> {
         loop {
             self.skip_blank();
@@ -143,7 +143,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Past one value and the comma behind it; none at the end of the list.
+    /// Moves past one value and the comma behind it; none at the end of the list.
     fn skip_element(&mut self) -> Option<()> {
         let mut depth = 0_usize;
         loop {
@@ -175,7 +175,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Past `r"…"` or `r#"…"#`; false if there is none.
+    /// Moves past `r"…"` or `r#"…"#`; false if there is none.
     fn skip_raw_string(&mut self) -> bool {
         let hashes = self.rest()[1..].chars().take_while(|&c| c == '#').count();
         let raw = self.rest()[1 + hashes..].starts_with('"');

@@ -3,7 +3,7 @@
 
 use crate::geometry::Bounds;
 
-/// So few boxes are looked at one by one.
+/// Most boxes of a leaf, which are looked at one by one.
 const FEW: usize = 8;
 
 /// A box of the tree, and the spheres in it: `order[from..to]`.
@@ -12,11 +12,11 @@ struct Node {
     bounds: Bounds,
     from: usize,
     to: usize,
-    /// The upper half; the lower one is the next node. None: a leaf.
+    /// Index of the node of the upper half; that of the lower half is the next node. None: a leaf.
     upper: Option<usize>,
 }
 
-/// Spheres by place.
+/// A tree of boxes, found by place.
 #[derive(Debug)]
 pub(super) struct Tree<'a> {
     boxes: &'a [Bounds],
@@ -25,7 +25,7 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    /// The tree of these boxes; about n log n.
+    /// The tree of these boxes, in a time of about n log n.
     pub(super) fn new(boxes: &'a [Bounds]) -> Tree<'a> {
         let mut tree = Tree { boxes, order: (0..boxes.len() as u32).collect(), nodes: Vec::new() };
         if !boxes.is_empty() {

@@ -134,7 +134,7 @@ fn sentence(code: &ron::Error, rest: &str, words: Words) -> String {
     }
 }
 
-/// The piece of the file at which a reader stumbles.
+/// The piece of the file that stands where reading failed.
 fn found(rest: &str) -> String {
     let word = rest.split(|c: char| c.is_whitespace() || ",()[]{}".contains(c)).next().unwrap_or("");
     match (word, rest.chars().next()) {

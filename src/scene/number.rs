@@ -13,7 +13,7 @@ use crate::printable::{described, is_printable};
 /// Largest magnitude of a coordinate, speed, mass or radius, in SI units. Beyond it the products of the solvers
 /// (areas squared, masses times squared speeds) would come near the end of f64.
 pub(super) const LARGEST: f64 = 1e30;
-/// Smallest mass (kg), radius and edge (m), for the same reason.
+/// Smallest mass (kg), radius and edge (m): below it the products of the solvers would come near the smallest f64.
 pub(super) const SMALLEST: f64 = 1e-30;
 /// Most spheres in a scene.
 pub(super) const MOST_SPHERES: usize = 1_000_000;
@@ -86,7 +86,7 @@ number!(
     "a number from 0 to 1"
 );
 
-/// How many.
+/// A number of things.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(try_from = "f64")]
 pub(super) struct Count(pub(super) usize);

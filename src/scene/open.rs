@@ -21,7 +21,7 @@ const LARGEST_FILE: u64 = 16;
 pub struct Opened {
     /// Built-in name or file stem, printable.
     pub key: String,
-    /// The file, if it is not built in.
+    /// The path of the scene's file; none if the scene is built in.
     pub path: Option<PathBuf>,
     /// The scene.
     pub scene: Scene,

@@ -45,14 +45,14 @@ pub(super) fn refuse_overlaps(
     if effort.spent() { Err(source.refuse(&[Field("spheres")], Effort::refusal())) } else { Ok(()) }
 }
 
-/// How deep two spheres overlap, m, if deeper than allowed.
+/// Depth of the overlap of two spheres, m; none if no deeper than allowed.
 fn pair_depth(a: &Sphere, b: &Sphere) -> Option<f64> {
     let reach = a.radius + b.radius;
     let depth = reach - a.x.distance(b.x);
     (depth > OVERLAP * reach).then_some(depth)
 }
 
-/// How deep a sphere overlaps the closest point of a wall, m, if deeper than allowed.
+/// Depth of the overlap of a sphere with the closest point of a wall, m; none if no deeper than allowed.
 fn wall_depth(sphere: &Sphere, wall: &Wall) -> Option<f64> {
     let depth = sphere.radius - wall.shape.distance(sphere.x);
     (depth > OVERLAP * sphere.radius).then_some(depth)

@@ -22,9 +22,9 @@ use crate::random::SplitMix64;
 
 /// Sine of the angle below which two edges count as parallel: their plane would be rounding alone.
 const PARALLEL: f64 = 1e-9;
-/// Walls that reach so many times beyond the spheres' box are not shown whole.
+/// Walls whose box is larger than the spheres' by more than this factor are not shown whole.
 const BEYOND: f64 = 20.0;
-/// How long a run lasts, s, if the scene does not say.
+/// Duration of a run, s, if the scene names none.
 pub(super) const DURATION: f64 = 20.0;
 
 /// The scene of a file, if it meets every rule.
@@ -97,7 +97,7 @@ fn corners(file: BoxFile) -> Bounds {
     Bounds { min: file.min.0, max: file.max.0 }
 }
 
-/// A box with a volume.
+/// The box between two corners (m), if it has a volume.
 fn bounds(corners: Bounds, path: &[Step], source: Source) -> Result<Bounds, Error> {
     let Bounds { min, max } = corners;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
@@ -134,7 +134,7 @@ fn walls(entries: &[WallFile], source: Source) -> Result<Bodies<Wall>, Error> {
     }
 }
 
-/// What keeps a parallelogram from being one.
+/// What is wrong with a parallelogram, a phrase; none if nothing is.
 fn fault(shape: &Parallelogram) -> Option<String> {
     let (long1, long2) = (shape.s1.length(), shape.s2.length());
     for (name, long) in [("s1", long1), ("s2", long2)] {

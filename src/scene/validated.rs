@@ -33,13 +33,13 @@ pub struct Draft {
     pub gravity: DVec3,
     /// The contact law's parameters.
     pub contact: ContactLaw,
-    /// What the scene asks to be solved with, unless the command line says otherwise.
+    /// The settings that the scene asks for, unless the command line names others.
     pub solver: Settings,
-    /// How long a run lasts unless told otherwise, s.
+    /// Duration of a run, s, unless the command line names another.
     pub duration: f64,
     /// What the screen shows at first, m.
     pub view: Bounds,
-    /// Where the run goes on from, if the spheres are where another run has left them.
+    /// What a run goes on from, if the spheres are where another run has left them.
     pub resume: Option<Resume>,
     /// Walls in file order, a `Room` expanded in place.
     pub walls: Vec<Wall>,
@@ -49,7 +49,7 @@ pub struct Draft {
 
 /// A validated scene: a [`Draft`] that met every rule, and can be read but not changed any more.
 ///
-/// It comes from a text ([`parse`](crate::scene::parse), [`open`](crate::scene::open)), from [`Draft::validated`], or
+/// A scene comes from a text ([`parse`](crate::scene::parse), [`open`](crate::scene::open)), from [`Draft::validated`], or
 /// from another scene ([`Scene::changed`], [`Scene::moved`]); there is no other way to make one:
 ///
 /// ```compile_fail
@@ -78,9 +78,9 @@ impl Deref for Scene {
 /// What a run needs to go on bit for bit where another run by the scene's settings was, beside positions and velocities.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Resume {
-    /// The time then, s, ≥ 0.
+    /// Time at which the other run was, s, ≥ 0.
     pub t: f64,
-    /// What [`Simulation::transient`](crate::physics::Simulation::transient) said then.
+    /// What [`Simulation::transient`](crate::physics::Simulation::transient) said at that time.
     pub transient: Vec<DVec3>,
 }
 
@@ -100,7 +100,7 @@ pub struct ContactLaw {
 /// The methods a scene or command line may name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// The source paper's: Euler frames, bisection, impulses over the next step.
+    /// The source paper's method: Euler frames, bisection, impulses over the next step.
     Paper,
     /// Ballistic flight, contacts found by looking ahead, to a tolerance; nothing tunnels.
     Swept,
@@ -130,7 +130,7 @@ impl Method {
     }
 }
 
-/// What to solve with.
+/// The method and its knobs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The method.
@@ -144,9 +144,9 @@ pub struct Settings {
 /// A static wall of infinite mass, struck from both sides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
-    /// Its place, m; edges are finite, non-zero and not parallel.
+    /// Centre and edges, m; edges are finite, non-zero and not parallel.
     pub shape: Parallelogram,
-    /// Its colour, if the scene names one.
+    /// Colour of the wall, if the scene names one.
     pub color: Option<Color>,
 }
 
@@ -163,8 +163,8 @@ pub struct Sphere {
     pub radius: f64,
     /// Constant force beside gravity, N.
     pub force: DVec3,
-    /// Its colour, if the scene names one.
+    /// Colour of the sphere, if the scene names one.
     pub color: Option<Color>,
-    /// Its name, if the scene gives one; no control characters.
+    /// Name of the sphere, if the scene gives one; no control characters.
     pub name: Option<String>,
 }

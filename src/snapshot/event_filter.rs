@@ -11,11 +11,11 @@ const CLASSES: [(&str, Class); 3] = [("collision", Class::Collide), ("rest", Cla
 /// Which events are wanted: all that these words allow.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct EventFilter {
-    /// Any of these; all if there are none.
+    /// Classes of which the event is one; any class if the list is empty.
     classes: Vec<Class>,
-    /// Each of these takes part.
+    /// Spheres that all take part in the event.
     spheres: Vec<u32>,
-    /// This wall takes part, or any.
+    /// The wall that takes part, or `Some(None)` for any wall; none if a wall need not take part.
     wall: Option<Option<u32>>,
 }
 

@@ -10,7 +10,7 @@ const PIECE: usize = 1024;
 /// An event as the list keeps it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Logged {
-    /// When, s.
+    /// Time of the event, s.
     pub time: f64,
     /// Approach speed −v_n before the response, m/s.
     pub approach_speed: f64,
@@ -22,7 +22,7 @@ pub struct Logged {
     pub a: u32,
     /// The wall, or the pair's higher index.
     pub b: u32,
-    /// Wall or pair.
+    /// Whether a sphere touches a wall or another sphere.
     pub kind: Kind,
     /// An impact, the begin of a rest, or its end.
     pub class: Class,
@@ -44,7 +44,7 @@ impl Logged {
         }
     }
 
-    /// Whether it is this contact of a frame.
+    /// Whether the event is this contact of a frame.
     pub fn is(&self, contact: &Contact) -> bool {
         let bodies = (contact.kind, contact.a, contact.b) == (self.kind, self.a as usize, self.b as usize);
         bodies && contact.time == self.time && contact.class == self.class
@@ -63,7 +63,7 @@ impl EventLog {
     /// Memory that the events may take, bytes.
     pub const MOST_BYTES: usize = 8 << 20;
 
-    /// Pieces of that.
+    /// Most pieces of the list, within [`EventLog::MOST_BYTES`].
     const MOST_PIECES: usize = Self::MOST_BYTES / (PIECE * size_of::<Logged>());
 
     /// Adds the event that comes next.
@@ -94,13 +94,13 @@ impl EventLog {
         self.dropped = self.dropped.min(events);
     }
 
-    /// How many events there were, those that are not kept any more included.
+    /// Number of events so far, those that are not kept any more included.
     pub fn total(&self) -> u64 {
         let last = self.pieces.back().map_or(0, |last| last.len());
         self.dropped + (self.pieces.len().saturating_sub(1) * PIECE + last) as u64
     }
 
-    /// How many of the oldest are not kept any more.
+    /// Number of the oldest events that are not kept any more.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
@@ -111,7 +111,7 @@ impl EventLog {
         self.pieces.get(index / PIECE)?.get(index % PIECE)
     }
 
-    /// (number, event), the oldest first.
+    /// The events that are kept, each with its number, the oldest first.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (u64, &Logged)> + Clone {
         let first = self.dropped + 1;
         let pieces = self.pieces.iter().enumerate();

@@ -8,7 +8,7 @@
 //! | `run` | the run at the end of one frame |
 //! | `ghost` | where the exact run of the same scene is |
 //! | `ahead` | where a sphere goes next |
-//! | `kept` | which frames one can go back to |
+//! | `kept` | which frames can be gone back to |
 //! | `event_log`, `event_filter` | what has happened from the start on, and which of it is wanted |
 //! | `ticks`, `trend`, `bins` | impacts and other quantities over time |
 

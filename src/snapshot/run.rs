@@ -39,13 +39,13 @@ pub struct Snapshot {
     pub rest_reasons: Vec<Option<RestReason>>,
     /// How the bodies of each of the first contacts came together, by index, where the method follows single events.
     pub approaches: Vec<Option<Approach>>,
-    /// What its search for the collision time did, trial step by trial step; empty if it needed none.
+    /// What the frame's search for the collision time did, trial step by trial step; empty if there was none.
     pub probes: Vec<Probe>,
     /// Centres in each of these trial steps, m; empty if there are too many of them, or if the next frame is in progress.
     pub trials: Vec<Vec<DVec3>>,
     /// What the model leaves out because the scene does not require it, a phrase each.
     pub left_out: Vec<&'static str>,
-    /// Counted since t = 0.
+    /// Counted work and outcomes since t = 0.
     pub tallies: Tallies,
     /// Name of the method.
     pub method: &'static str,

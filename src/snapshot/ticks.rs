@@ -15,7 +15,7 @@ pub struct Ticks {
 }
 
 impl Ticks {
-    /// No collisions yet, in bins that cover `span` seconds (1 s if that is not a positive number).
+    /// Ticks without collisions, in bins that cover `span` seconds (1 s if that is not a positive number).
     pub fn new(span: f64) -> Ticks {
         Ticks { span: bins::span(span), impacts: vec![0; BINS] }
     }

@@ -17,7 +17,7 @@ pub struct Trend {
 }
 
 impl Trend {
-    /// Nothing known yet, in bins that cover `span` seconds (1 s if that is not a positive number).
+    /// A trend without values, in bins that cover `span` seconds (1 s if that is not a positive number).
     pub fn new(span: f64) -> Trend {
         Trend { span: bins::span(span), values: vec![f64::NAN; BINS], last: None }
     }
@@ -49,7 +49,7 @@ pub struct Trade {
 }
 
 impl Trade {
-    /// Nothing known yet of a run that is expected to last `span` seconds.
+    /// The trade of a run that is expected to last `span` seconds, without values yet.
     pub fn new(span: f64) -> Trade {
         let none = Trend::new(span);
         Trade {

@@ -17,13 +17,13 @@ use crate::app::{Gesture, Input, Key, Mouse};
 /// Most keys and pastes that wait; a user does not type as far ahead.
 const MOST: usize = 256;
 
-/// While no more inputs wait than a hand types ahead, Ctrl-C is obeyed in its turn: what was typed before it decides what
-/// it closes.
+/// Most inputs that wait while Ctrl-C is obeyed in its turn, as many as a hand types ahead: what was typed before it
+/// decides what it closes.
 const AHEAD: usize = 32;
 
 const INTERRUPT: Input = Input::Key(Key::ctrl('c'));
 
-/// As many inputs wait, and the mouse's are left out.
+/// Waiting inputs from which on those of the mouse are left out.
 const MOST_MOTION: usize = MOST / 4;
 
 /// Most replies that wait; as many are never asked for.
@@ -34,20 +34,20 @@ const MOST_REPLIES: usize = 64;
 struct Shared {
     waiting: AtomicUsize,
     left_out: AtomicUsize,
-    /// A Ctrl-C waits for its turn.
+    /// Whether a Ctrl-C waits for its turn.
     interrupting: AtomicBool,
-    /// A Ctrl-C came that waits for nothing.
+    /// Whether a Ctrl-C came that waits for nothing.
     interrupted: AtomicBool,
     replies: Mutex<Vec<(Reply, Instant)>>,
 }
 
-/// The end of the thread that reads the terminal.
+/// The end of the backlog that the thread which reads the terminal has.
 pub(super) struct Entrance {
     shared: Arc<Shared>,
     post: Post,
 }
 
-/// The end of the thread that obeys.
+/// The end of the backlog that the thread which obeys has.
 pub(super) struct Backlog(Arc<Shared>);
 
 /// A backlog whose entrance posts an event for each input.
@@ -110,7 +110,7 @@ impl Backlog {
         std::mem::take(&mut *self.0.replies.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// This input is obeyed now. When it was the last one: how many were left out since there was none before.
+    /// Notes that an input is obeyed now. How many were left out since none waited, if it was the last one; else 0.
     pub(super) fn obeyed(&self, input: &Input) -> usize {
         if *input == INTERRUPT {
             self.0.interrupting.store(false, Ordering::Release);

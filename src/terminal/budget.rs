@@ -12,7 +12,7 @@ pub(super) struct Budget {
     rate: Option<u64>,
     /// When all that was sent is paid for.
     paid: Duration,
-    /// Whether an answer to a key was sent before that.
+    /// Whether an answer to a key was sent before `paid`.
     overdrawn: bool,
 }
 
@@ -21,12 +21,12 @@ impl Budget {
         Budget { rate, paid: Duration::ZERO, overdrawn: false }
     }
 
-    /// From when on a picture may be sent. An answer to a key (`urgent`) waits only if another did not.
+    /// Time from which on a picture may be sent. An answer to a key (`urgent`) waits only if another did not.
     pub(super) fn allows_from(&self, urgent: bool) -> Duration {
         if urgent && !self.overdrawn { Duration::ZERO } else { self.paid }
     }
 
-    /// So many bytes are sent.
+    /// Counts bytes that are sent at `now`.
     pub(super) fn spend(&mut self, bytes: usize, now: Duration) {
         let Some(rate) = self.rate else { return };
         self.overdrawn = self.paid > now;

@@ -18,7 +18,7 @@ use crate::app::{Code, Input, Key};
 /// A paste that does not go on for this long is over.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
 
-/// A string that does not go on for this long is given up, s: byte by byte is slow, but not as slow as that.
+/// A string that does not go on for this long is given up: byte by byte is slow, but not as slow as that.
 const STRING_PAUSE: Duration = Duration::from_secs(2);
 
 /// The rest of a torn sequence is recognised for this long after the escape time-out.
@@ -48,7 +48,7 @@ pub(super) struct Decoder {
 struct Payload {
     /// What follows its escape: `P` for DCS, `]` for OSC, which a bell ends too.
     kind: u8,
-    /// Its bytes, up to one more than an answer has.
+    /// Bytes of the string, up to one more than an answer has.
     bytes: Vec<u8>,
 }
 
@@ -73,7 +73,7 @@ enum State {
         alt: bool,
     },
     Escape,
-    /// After a late escape, or a late `ESC [`: this may be the next byte of its sequence, or a key.
+    /// A late escape, or a late `ESC [`: the next byte may be of its sequence, or a key.
     Introducer(u8),
     /// `ESC O`.
     SingleShift,
@@ -113,7 +113,7 @@ impl Decoder {
         }
     }
 
-    /// Nothing came for as long as [`Decoder::patience`].
+    /// Decides what was begun, once nothing has come for as long as [`Decoder::patience`].
     pub(super) fn silence(&mut self) {
         let state = std::mem::replace(&mut self.state, State::Ground);
         let late = std::mem::replace(&mut self.late, true);
@@ -170,7 +170,7 @@ impl Decoder {
         }
     }
 
-    /// Ctrl-C ends whatever was begun; an escape just before it was pressed.
+    /// Takes a Ctrl-C, which ends whatever was begun; an escape just before it was pressed.
     fn interrupt(&mut self, begun: &State) {
         match begun {
             State::Escape if !self.late => self.press(Key::plain(Code::Escape)),
@@ -180,7 +180,7 @@ impl Decoder {
         self.press(Key::ctrl('c'));
     }
 
-    /// A byte with nothing begun before it, but perhaps an escape.
+    /// Takes a byte with nothing begun before it, but perhaps an escape.
     fn begin(&mut self, byte: u8, alt: bool) {
         let control = |c: u8| Key { alt, ..Key::ctrl(c.into()) };
         let plain = |code| Key { alt, ..Key::plain(code) };
@@ -214,7 +214,7 @@ impl Decoder {
         }
     }
 
-    /// After an escape, or after one that has counted as the key already.
+    /// Takes a byte after an escape, or after one that has counted as the key already.
     fn escape(&mut self, byte: u8) {
         match byte {
             ESCAPE => {
@@ -229,7 +229,7 @@ impl Decoder {
         }
     }
 
-    /// After a late escape and `first`: one sequence in two pieces, or keys one after the other.
+    /// Takes a byte after a late escape and `first`: one sequence in two pieces, or keys one after the other.
     fn introduce(&mut self, first: u8, byte: u8) {
         let one = match first {
             b'[' => begins_a_key(byte) || !self.late && matches!(byte, b'<'..=b'?'),

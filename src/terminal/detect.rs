@@ -36,13 +36,13 @@ impl Environment {
         }
     }
 
-    /// This process's.
+    /// The environment of this process.
     pub(super) fn ours() -> Environment {
         Environment::read(|name| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned()))
     }
 
-    /// Braille, unless the locale names an encoding that has no such characters, or the terminal is the Linux console,
-    /// whose fonts have none. An ssh session often arrives without any locale: that is unknown, not C.
+    /// The marker: braille, unless the locale names an encoding that has no such characters, or the terminal is the Linux
+    /// console, whose fonts have none. An ssh session often arrives without any locale: that is unknown, not C.
     pub(super) fn marker(&self, flag: Option<Marker>) -> Marker {
         let utf8 = |locale: &str| {
             let locale = locale.to_ascii_lowercase();
@@ -55,7 +55,7 @@ impl Environment {
         })
     }
 
-    /// As many as the terminal says it has, 16 if it says nothing.
+    /// Depth of colour: as many as the terminal says it has, 16 if it says nothing.
     pub(super) fn colors(&self, flag: Option<Colors>) -> Colors {
         let term = self.term.as_deref().unwrap_or("");
         flag.unwrap_or(match self.color_term.as_deref() {
@@ -68,7 +68,7 @@ impl Environment {
         })
     }
 
-    /// Whether it may have more colours than it says: the name in TERM is often that of the least that is there.
+    /// Whether the terminal may have more colours than it says: the name in TERM is often that of the least that is there.
     pub(super) fn may_have_more_colors(&self) -> bool {
         !self.multiplexed && matches!(self.colors(None), Colors::Ansi16 | Colors::Ansi256)
     }
@@ -78,7 +78,7 @@ impl Environment {
         self.locale.is_none()
     }
 
-    /// Whether it may be asked what it can: the Linux console prints questions that it does not know.
+    /// Whether the terminal may be asked what it can: the Linux console prints questions that it does not know.
     pub(super) fn may_be_asked(&self) -> bool {
         !self.is_console()
     }

@@ -37,14 +37,15 @@ use crate::{
 /// second there, as many as 256 kbit/s carry.
 const MULTIPLEXED: (u32, u64) = (10, 32_000);
 
-/// How long the rest of an escape sequence may take near by, and across a network.
+/// How long the rest of an escape sequence may take near by.
 const NEAR: Duration = Duration::from_millis(25);
+/// How long the rest of an escape sequence may take across a network.
 const REMOTE: Duration = Duration::from_millis(100);
 
 /// Longest wait at the end for answers that only our terminal's next reader would get, if it is no shell.
 const LEAVE: Duration = Duration::from_millis(100);
 
-/// A long backlog of events is obeyed in turns of this length, with a picture after each where one is due.
+/// Length of a turn in which a long backlog of events is obeyed, with a picture after each where one is due.
 const TURN: Duration = Duration::from_millis(50);
 
 /// Largest picture, columns and rows; beyond it no terminal is drawn, whatever it claims to be.
@@ -117,7 +118,7 @@ impl Driver {
         let outcome = self.until_the_end();
         let farewell = if outcome.is_ok() { self.app.finish() } else { None };
         match outcome {
-            Ok(Outcome::Quit) => self.leave(!signals::somebody_could_continue_us())?,
+            Ok(Outcome::Quit) => self.leave(!signals::a_shell_could_continue_us())?,
             Ok(Outcome::Signal(number)) if number != SIGHUP => self.leave(true)?,
             _ => {}
         }
@@ -224,7 +225,7 @@ impl Driver {
         }
     }
 
-    /// Does what the terminal can do, once it has said so.
+    /// Adapts pictures to what the terminal can do, once it has said so.
     fn adapt(&mut self, change: Change) {
         match change {
             Change::Marker(marker) => self.app.adapt(|settings| settings.marker = marker),
@@ -290,7 +291,7 @@ impl Driver {
 
     /// Gives the terminal to the shell and stops; says so instead if no shell could continue us.
     fn suspend(&mut self) -> Result<(), Error> {
-        if !signals::somebody_could_continue_us() {
+        if !signals::a_shell_could_continue_us() {
             self.app.tell("There is no shell that could continue carom, so it goes on.");
             self.repaint();
             return Ok(());

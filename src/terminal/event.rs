@@ -34,6 +34,6 @@ pub(super) struct Post(pub(super) Sender<Event>);
 
 impl Post {
     pub(super) fn send(&self, event: Event) {
-        let _ = self.0.send(event); // nobody reads any more: the program is ending
+        let _ = self.0.send(event); // nothing reads any more: the program is ending
     }
 }

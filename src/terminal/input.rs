@@ -26,7 +26,7 @@ pub(super) fn start(escape_time: Duration, entrance: Entrance) -> io::Result<()>
     Ok(())
 }
 
-/// Until the terminal is gone.
+/// Reads the terminal until it is gone.
 fn read(tty: &File, mut decoder: Decoder, entrance: &Entrance) {
     let mut bytes = [0; 4096];
     loop {

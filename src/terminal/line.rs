@@ -18,7 +18,7 @@ const SILENCE: Duration = Duration::from_secs(2);
 /// Without an answer for this long, a key is a sign that answers were lost: it could not come over a dead line.
 const LOST: Duration = Duration::from_secs(10);
 
-/// So many losses in a row, and the terminal counts as one that does not answer any more.
+/// Losses in a row after which the terminal counts as one that does not answer any more.
 const LOSSES: u32 = 3;
 
 /// After a silence, answers to what was sent before it may come for this long.
@@ -31,25 +31,27 @@ pub(super) const BLIND: Duration = Duration::from_millis(100);
 /// when the line falls silent.
 const RATE: u32 = 25;
 
-/// Widest window; and on a line that a thousand bytes keep busy for longer than this.
+/// Widest window, pictures.
 const WIDEST: u32 = 4;
+/// Widest window on a thin line, pictures.
 const WIDEST_THIN: u32 = 2;
+/// A line that a thousand bytes keep busy for longer than this is thin.
 const THIN: Duration = Duration::from_millis(5);
 
 /// A picture that keeps the line busy for longer than this makes the answer to a key wait long.
 const LONG: Duration = Duration::from_millis(250);
 
-/// So many pictures in a row tell how long a byte takes; the quickest counts: a busy machine is no thin line, and what
-/// had to wait for other pictures tells nothing.
+/// Pictures in a row that tell how long a byte takes; the quickest counts: a busy machine is no thin line, and what had to
+/// wait for other pictures tells nothing.
 const SAMPLES: usize = 8;
 
-/// Smaller pictures tell nothing about it, bytes.
+/// Smallest picture that tells how long a byte takes, bytes.
 const TELLING: usize = 500;
 
 /// What is known of the terminal's answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Answers {
-    /// It was not asked yet, or just now.
+    /// The terminal was not asked yet, or just now.
     Unknown,
     Come,
     Fail,
@@ -68,7 +70,7 @@ struct Request {
 pub(super) struct Line {
     answers: Answers,
     unanswered: VecDeque<Request>,
-    /// Most unanswered pictures.
+    /// Most pictures that may be unanswered.
     window: u32,
     /// Shortest round trip since the last silence, begun by that of a request alone: a picture keeps a thin line busy.
     shortest: Option<Duration>,
@@ -107,13 +109,13 @@ impl Line {
         self.answers == Answers::Come && self.shortest.is_none() && self.unanswered.is_empty() && self.is_settled(now)
     }
 
-    /// A request goes out alone.
+    /// Notes that a request goes out alone.
     pub(super) fn probing(&mut self, now: Duration) {
         self.ask(now, None);
     }
 
-    /// A picture of so many bytes goes out; whether a request goes with it. A terminal that does not answer is asked now
-    /// and then.
+    /// Notes that a picture of `bytes` goes out; whether a request goes with it. A terminal that does not answer is asked
+    /// now and then.
     pub(super) fn sending(&mut self, now: Duration, bytes: usize) -> bool {
         self.last = bytes;
         if self.answers == Answers::Fail {
@@ -131,9 +133,9 @@ impl Line {
         self.unanswered.push_back(Request { sent: now, picture });
     }
 
-    /// The oldest request has been answered; how long the line was silent before, if it was.
+    /// Notes that the oldest request has been answered; how long the line was silent before, if it was.
     pub(super) fn replied(&mut self, now: Duration) -> Option<Duration> {
-        let request = self.unanswered.pop_front()?; // none: nobody asked
+        let request = self.unanswered.pop_front()?; // none: nothing was asked
         let first = std::mem::replace(&mut self.answers, Answers::Come) != Answers::Come;
         self.losses = 0;
         let waited = self.waiting.map_or(Duration::ZERO, |since| now.saturating_sub(since));
@@ -150,7 +152,7 @@ impl Line {
         None
     }
 
-    /// Whether what was sent then is surely no remainder of a silence.
+    /// Whether what was sent at `sent` is surely no remainder of a silence.
     fn is_settled(&self, sent: Duration) -> bool {
         self.returned.is_none_or(|returned| sent >= returned + SETTLED)
     }
@@ -217,7 +219,7 @@ impl Line {
         first.map(|request| request.sent + FIRST + FIRST_BYTE * request.picture.unwrap_or_default().min(100_000) as u32)
     }
 
-    /// A key has come.
+    /// Notes that a key has come.
     pub(super) fn pressed(&mut self, now: Duration) {
         let lost = self.unanswered.back().is_some_and(|request| request.sent + LOST <= now);
         if self.answers == Answers::Come && lost {

@@ -1,8 +1,8 @@
 //! Drives the application on a real terminal. The only place that names crossterm.
 //!
 //! Threads: the one of `drive` obeys inputs and draws; `input` reads the terminal; `signals` waits for signals; `writer`
-//! sends pictures; the application's worker simulates. All of them post events to the first and wait for nothing.
-//! Begin with `drive`.
+//! sends pictures; the application's worker simulates. All of them post events to the first and wait for nothing. Begin
+//! with `drive`.
 //!
 //! | file | owns |
 //! |---|---|

@@ -5,7 +5,7 @@ use crate::app::{Gesture, Mouse};
 /// Asks for reports: buttons and motion while one is pressed.
 pub(super) const ON: &[u8] = b"\x1b[?1002h\x1b[?1006h";
 
-/// Asks for none.
+/// Asks for no reports.
 pub(super) const OFF: &[u8] = b"\x1b[?1006l\x1b[?1002l";
 
 /// Bits of the button's number.

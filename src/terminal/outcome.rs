@@ -15,15 +15,15 @@ use crate::{
 pub struct Options {
     /// The scene to begin with.
     pub opened: Opened,
-    /// What to solve it with.
+    /// The settings to begin with.
     pub settings: Settings,
-    /// The recording that it is of, if it is.
+    /// The recording that is replayed; none for a scene.
     pub recording: Option<Recording>,
-    /// What to say at first, if anything.
+    /// The message to show at first, if any.
     pub message: Option<String>,
-    /// Wait at t = 0 instead of running.
+    /// Whether to wait at t = 0 instead of running.
     pub paused: bool,
-    /// Go to the first collision, and wait there with its card open.
+    /// Whether to go to the first collision, and wait there with its card open.
     pub taken_apart: bool,
     /// Dots or characters; `None`: as the locale says.
     pub marker: Option<Marker>,
@@ -44,11 +44,11 @@ pub struct Options {
 pub enum Outcome {
     /// The user quit.
     Quit,
-    /// By this signal; the terminal's own end counts as SIGHUP. The exit code is 128 + it.
+    /// A signal ended the program; the terminal's own end counts as SIGHUP. The exit code is 128 plus its number.
     Signal(i32),
 }
 
-/// Why it could not run, or not on; the terminal is as it was before.
+/// Why the application could not run, or not on; the terminal is as it was before.
 #[derive(Debug)]
 pub enum Error {
     /// Standard output is no terminal: wrong usage.

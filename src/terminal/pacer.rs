@@ -21,26 +21,26 @@ const ANSWER: Duration = Duration::from_millis(30);
 /// What to do now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Next {
-    /// Draw.
+    /// Draw a picture.
     Draw,
     /// Send a request alone.
     Probe,
-    /// Nothing until then, unless something happens.
+    /// Wait for this long, unless something happens.
     Wait(Duration),
-    /// Nothing until something happens.
+    /// Wait until something happens.
     Rest,
 }
 
 /// A line that was silent and is no more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Return {
-    /// How long it was silent.
+    /// How long the line was silent.
     pub(super) silence: Duration,
-    /// Pictures that would have been shown meanwhile.
+    /// Number of pictures that would have been shown meanwhile.
     pub(super) skipped: u128,
 }
 
-/// Keeps the rhythm.
+/// Decides when pictures are drawn and sent.
 #[derive(Debug)]
 pub(super) struct Pacer {
     /// Shortest time between two pictures of a running run.
@@ -62,7 +62,7 @@ pub(super) struct Pacer {
 }
 
 impl Pacer {
-    /// At most `rate` pictures and, if there is a cap, `bytes` per second.
+    /// A pacer for at most `rate` pictures and, if there is a cap, `bytes` per second.
     pub(super) fn new(rate: u32, bytes: Option<u64>) -> Pacer {
         Pacer {
             interval: Duration::from_secs(1) / rate,
@@ -82,25 +82,25 @@ impl Pacer {
         self.interval.max(self.line.interval())
     }
 
-    /// Something changed; it will be shown in its turn.
+    /// Notes that something changed: it will be shown in its turn.
     pub(super) fn changed(&mut self, now: Duration) {
         let turn = self.last.map_or(now, |last| last + self.interval()).max(now);
         self.dirty = Some(self.dirty.map_or(turn, |due| due.min(turn)));
     }
 
-    /// Something changed that the user waits for.
+    /// Notes that something changed that the user waits for.
     pub(super) fn urgent(&mut self, now: Duration) {
         self.changed(now);
         self.urgent = Some(self.urgent.map_or(now, |due| due.min(now)));
     }
 
-    /// A key was pressed; `asked`: the simulation has been told, and what it makes of it will come soon.
+    /// Notes that a key was pressed; `asked` if the simulation has been told, and what it makes of it will come soon.
     pub(super) fn pressed(&mut self, now: Duration, asked: bool) {
         self.line.pressed(now);
         self.urgent(if asked { now + ANSWER } else { now });
     }
 
-    /// The size changed.
+    /// Notes that the size changed.
     pub(super) fn resized(&mut self, now: Duration) {
         let first = self.resized.map_or(now, |(first, _)| first);
         self.resized = Some((first, now));
@@ -109,35 +109,35 @@ impl Pacer {
         self.size_since = Some(now);
     }
 
-    /// A picture has been drawn.
+    /// Notes that a picture has been drawn.
     pub(super) fn drawn(&mut self, now: Duration) {
         (self.dirty, self.urgent, self.resized, self.last) = (None, None, None, Some(now));
     }
 
-    /// A picture of so many bytes goes out; whether a request should follow it.
+    /// Notes that a picture of `bytes` goes out; whether a request should follow it.
     pub(super) fn sending(&mut self, now: Duration, bytes: usize) -> bool {
         self.sending = true;
         self.budget.spend(bytes, now);
         self.line.sending(now, bytes)
     }
 
-    /// A request goes out alone.
+    /// Notes that a request goes out alone.
     pub(super) fn probing(&mut self, now: Duration) {
         self.sending = true;
         self.line.probing(now);
     }
 
-    /// A request has gone out, and was taken by the system.
+    /// Notes that a request has gone out, and was taken by the system.
     pub(super) fn asked(&mut self, now: Duration) {
         self.line.probing(now);
     }
 
-    /// The system has taken what was sent last.
+    /// Notes that the system has taken what was sent last.
     pub(super) fn sent(&mut self) {
         self.sending = false;
     }
 
-    /// The terminal has answered a request.
+    /// Notes that the terminal has answered a request; the return of the line, if it was silent.
     pub(super) fn replied(&mut self, now: Duration) -> Option<Return> {
         let silence = self.line.replied(now)?;
         let waited = self.dirty.map_or(Duration::ZERO, |due| now.saturating_sub(due));

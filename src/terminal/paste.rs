@@ -1,22 +1,22 @@
 //! Pasted text, in the brackets that tell it from typed keys.
 
-/// Ctrl-C as a byte: the key wherever it comes, but in a paste that ends.
+/// The byte of Ctrl-C, which is the key wherever it comes, but in a paste that ends.
 pub(super) const CTRL_C: u8 = 0x03;
 
-/// As much of a paste is kept, bytes; nothing here takes more. After as much a Ctrl-C in a paste is the key.
+/// Bytes of a paste that are kept; nothing here takes more. After as many a Ctrl-C in a paste is the key.
 pub(super) const KEPT: usize = 4096;
 
-/// Ends a paste.
+/// The bytes that end a paste.
 pub(super) const ENDS: &[u8] = b"\x1b[201~";
 
 /// A paste under way.
 #[derive(Default)]
 pub(super) struct Paste {
-    /// Its first [`KEPT`] bytes.
+    /// First [`KEPT`] bytes of the paste.
     text: Vec<u8>,
-    /// Last bytes that may be the beginning of its end.
+    /// Last bytes, which may be the beginning of [`ENDS`].
     tail: Vec<u8>,
-    /// Bytes since the first Ctrl-C in it, if there is one.
+    /// Bytes since the first Ctrl-C in the paste, if there is one.
     interrupted: Option<usize>,
 }
 
@@ -41,12 +41,12 @@ impl Paste {
         false
     }
 
-    /// Whether a Ctrl-C has come in it: the key, if there is silence after it.
+    /// Whether a Ctrl-C has come in the paste: the key, if there is silence after it.
     pub(super) fn is_interrupted(&self) -> bool {
         self.interrupted.is_some()
     }
 
-    /// Whether a Ctrl-C has come in it and the end has not, for so long that it hardly will; says so once.
+    /// Whether a Ctrl-C has come in the paste and the end has not, for so long that it hardly will; true once.
     pub(super) fn is_interrupted_without_end(&mut self) -> bool {
         self.interrupted.take_if(|since| *since > KEPT).is_some()
     }

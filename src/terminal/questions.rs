@@ -4,16 +4,16 @@
 use super::{detect::Environment, reply::Reply};
 use crate::view::{Background, Colors, Marker};
 
-/// Whether it can print a character beyond ASCII: where the cursor is after one of three bytes in UTF-8.
+/// Asks whether the terminal can print a character beyond ASCII: where the cursor is after one of three bytes in UTF-8.
 const WIDTH: &[u8] = "\x1b[H\u{283f}\x1b[6n".as_bytes();
 
-/// Which colour it has made of one of 24 bits, and whether its own description has such colours (`RGB`).
+/// Asks which colour the terminal has made of one of 24 bits, and whether its own description has such colours (`RGB`).
 const COLORS: &[u8] = b"\x1b[48;2;1;2;3m\x1bP$qm\x1b\\\x1b[m\x1bP+q524742\x1b\\";
 
-/// The colour of its background.
+/// Asks for the colour of the terminal's background.
 const BACKGROUND: &[u8] = b"\x1b]11;?\x1b\\";
 
-/// Whether it knows synchronized updates.
+/// Asks whether the terminal knows synchronized updates.
 const SYNCHRONIZED: &[u8] = b"\x1b[?2026$p";
 
 /// Questions that are not answered.
@@ -36,7 +36,7 @@ pub(super) enum Change {
 }
 
 impl Questions {
-    /// What is left open by the user (`marker`, `colors`) and the environment.
+    /// The questions that the user (`marker`, `colors`) and the environment leave open.
     pub(super) fn open(environment: &Environment, marker: Option<Marker>, colors: Option<Colors>) -> Questions {
         if !environment.may_be_asked() {
             return Questions::default();

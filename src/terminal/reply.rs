@@ -10,18 +10,18 @@ pub(super) const LONGEST: usize = 128;
 /// A reply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reply {
-    /// To [`REQUEST`].
+    /// The answer to [`REQUEST`].
     Attributes,
     /// The column of the cursor, from 1.
     Column(u16),
-    /// It shows colours of 24 bits.
+    /// The terminal shows colours of 24 bits.
     TrueColor,
     /// The background.
     Background {
-        /// Whether it is light.
+        /// Whether the background is light.
         light: bool,
     },
-    /// Whether it knows synchronized updates.
+    /// Whether the terminal knows synchronized updates.
     Synchronized(bool),
 }
 

@@ -1,7 +1,7 @@
 //! The terminal while it is ours: raw mode, alternate screen, hidden cursor; and given back on every way out.
 //!
 //! Every way on which some code of ours still runs: quitting, errors, panics in any thread, signals that can be caught.
-//! That ends where the process is ended without being asked: by SIGKILL, by the system when memory is out, and by Rust
+//! This care ends where the process is ended without being asked: by SIGKILL, by the system when memory is out, and by Rust
 //! itself when an allocation is refused, a stack overflows or a panic meets another (it aborts; to run code there takes
 //! `unsafe`). What is known to need more memory than there is is refused before (`scene::size`). After such an end,
 //! `reset` puts a terminal right.
@@ -47,9 +47,9 @@ pub(super) struct Session {
     screen: Mutex<Screen>,
     /// Whether the terminal is ours. Once it is not, nothing is written any more.
     ours: AtomicBool,
-    /// Whether it is in raw mode, so that nothing is echoed.
+    /// Whether the terminal is in raw mode, so that nothing is echoed.
     raw: AtomicBool,
-    /// How often it was taken: what was drawn before the last time is for a screen that is no more.
+    /// How often the terminal was taken: what was drawn before the last time is for a screen that is no more.
     takes: AtomicU64,
     /// Set where the signal arrives that continues a stopped process: until the terminal is taken again, it is in an
     /// unknown state.
@@ -99,7 +99,7 @@ impl Session {
         Ok(guard)
     }
 
-    /// Raw mode, alternate screen, no cursor; pasted text is marked as such.
+    /// Takes the terminal: raw mode, alternate screen, no cursor; pasted text is marked as such.
     ///
     /// # Errors
     /// If there is no raw mode to be had.
@@ -220,7 +220,7 @@ impl Screen {
         Ok(true)
     }
 
-    /// Until the terminal takes more, but not long: it may cease to be ours meanwhile.
+    /// Waits until the terminal takes more, but not long: it may cease to be ours meanwhile.
     fn wait(&self) {
         let some_time = Timespec { tv_sec: 0, tv_nsec: 20_000_000 };
         let _ = poll(&mut [PollFd::new(&self.file, PollFlags::OUT)], Some(&some_time)); // a signal ends it early

@@ -43,8 +43,8 @@ pub(super) fn start(session: Arc<Session>, post: Post) -> io::Result<()> {
     Ok(())
 }
 
-/// Those of the signals that our parent has not told us to ignore (nohup, background jobs): what is ignored stays so,
-/// with a screen and without. Where /proc does not tell, all of them.
+/// The signals that our parent has not told us to ignore (nohup, background jobs): what is ignored stays so, with a screen
+/// and without. Where /proc does not tell, all of them.
 pub(crate) fn not_ignored(signals: &[i32]) -> Vec<i32> {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -54,7 +54,7 @@ pub(crate) fn not_ignored(signals: &[i32]) -> Vec<i32> {
 
 /// Whether a shell is there that could continue us after a stop: it leads our session and our group is a job of its.
 /// Under `ssh -t host carom` our group is the session's own, and a stop would be for ever.
-pub(super) fn somebody_could_continue_us() -> bool {
+pub(super) fn a_shell_could_continue_us() -> bool {
     let (Ok(session), Some(parent)) = (getsid(None), getppid()) else { return false };
     getpgrp() != session && getsid(Some(parent)) == Ok(session)
 }

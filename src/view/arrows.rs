@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{
-    canvas::{Ink, Layer},
+    canvas::{Layer, Stroke},
     pane::View,
     shapes,
     sheet::Sheet,
@@ -15,7 +15,8 @@ use crate::snapshot::{Class, Contact, Kind, Snapshot};
 /// Part of the view's width that the longest arrow takes at most.
 const LONGEST: f64 = 0.2;
 
-/// Cells of a view that there are for each contact's arrows: with fewer they are drawn over each other, and none can be read.
+/// Cells of a view that there are for each contact's arrows: with fewer they are drawn over each other, and none can be
+/// read.
 const CELLS: usize = 24;
 
 /// Length of an arrow head's barbs, dots; shorter arrows have none.
@@ -31,7 +32,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Whether it is drawn.
+    /// Whether the quantity is drawn.
     pub(super) fn is_shown(self, view: &View) -> bool {
         let overlays = view.screen.view_settings.overlays;
         match self {
@@ -40,7 +41,7 @@ impl Quantity {
         }
     }
 
-    /// How much of it a contact has.
+    /// The quantity of a contact, N s or N; none if it has none.
     fn of(self, snapshot: &Snapshot, contact: &Contact) -> Option<f64> {
         let amount = match self {
             Quantity::Impulse => (contact.class == Class::Collide).then_some(contact.impulse),
@@ -49,8 +50,8 @@ impl Quantity {
         amount.filter(|amount| amount.is_finite() && *amount > 0.0)
     }
 
-    /// The contacts whose arrows are drawn, and how the label names the choice, if not all are: where they would lie over each
-    /// other, those of the selected sphere and of what it touches, or else the largest.
+    /// The contacts whose arrows are drawn, and how the label names the choice, if not all are: where they would lie over
+    /// each other, those of the selected sphere and of what it touches, or else the largest.
     fn drawn(self, view: &View) -> (Vec<usize>, String) {
         let snapshot = view.screen.snapshot;
         let amount = |index: usize| self.of(snapshot, &snapshot.contacts[index]);
@@ -99,12 +100,12 @@ impl Quantity {
             Quantity::Impulse => sheet.palette.alarm(),
             Quantity::Force => sheet.palette.notice(),
         };
-        let ink = Ink::new(Layer::Arrow, style);
+        let stroke = Stroke::new(Layer::Arrow, style);
         let snapshot = view.screen.snapshot;
         for index in self.drawn(view).0 {
             let contact = &snapshot.contacts[index];
             if let Some(amount) = self.of(snapshot, contact) {
-                draw_pushes(view, contact, amount / per_meter, ink);
+                draw_pushes(view, contact, amount / per_meter, stroke);
             }
         }
     }
@@ -115,30 +116,30 @@ fn bodies(contact: &Contact) -> [Option<usize>; 2] {
     [Some(contact.a), (contact.kind == Kind::Pair).then_some(contact.b)]
 }
 
-/// Arrows of so many metres along a contact's normal, outside the spheres that it pushes.
-pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, ink: Ink) {
+/// Draws arrows of `length` (m) along a contact's normal, outside the spheres that it pushes.
+pub(super) fn draw_pushes(view: &mut View, contact: &Contact, length: f64, stroke: Stroke) {
     let snapshot = view.screen.snapshot;
     let other = (contact.kind == Kind::Pair).then_some((contact.b, -contact.normal));
     for (sphere, normal) in [(contact.a, contact.normal)].into_iter().chain(other) {
         let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { continue };
         let rim = *x + normal * *radius;
-        draw_arrow(view, rim, rim + normal * length, ink);
+        draw_arrow(view, rim, rim + normal * length, stroke);
     }
 }
 
-/// A line from one point of the world to another, with two barbs at 45° to it.
-pub(super) fn draw_arrow(view: &mut View, from: DVec3, to: DVec3, ink: Ink) {
+/// Draws a line from one point of the world (m) to another, with two barbs at 45° to it.
+pub(super) fn draw_arrow(view: &mut View, from: DVec3, to: DVec3, stroke: Stroke) {
     let (tail, tip) = (view.project(from), view.project(to));
     if tail == tip {
         return;
     }
-    shapes::line(&mut view.canvas, tail, tip, ink);
+    shapes::line(&mut view.canvas, tail, tip, stroke);
     let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
     let length = (dx * dx + dy * dy).sqrt();
     if length.is_nan() || length < BARB + 1.0 {
         return;
     }
     let (ux, uy) = (dx / length * BARB * 0.7, dy / length * BARB * 0.7);
-    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), ink);
-    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), ink);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux - uy, tip.1 - uy + ux), stroke);
+    shapes::line(&mut view.canvas, tip, (tip.0 - ux + uy, tip.1 - uy - ux), stroke);
 }

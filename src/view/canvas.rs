@@ -35,7 +35,7 @@ pub(super) enum Layer {
 }
 
 impl Layer {
-    /// Whether it is of the run's own spheres, which hide each other.
+    /// Whether the layer is of the run's own spheres, which hide each other.
     fn is_body(self) -> bool {
         matches!(self, Layer::Sphere | Layer::Contact | Layer::Selected)
     }
@@ -43,17 +43,17 @@ impl Layer {
 
 /// Colour, attributes and layer of what is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Ink {
-    /// Which layer it is on.
+pub(super) struct Stroke {
+    /// The layer that is drawn on.
     pub(super) layer: Layer,
     color: Color,
     modifier: Modifier,
 }
 
-impl Ink {
-    /// Ink of a style (its foreground and added attributes) on a layer.
-    pub(super) fn new(layer: Layer, style: Style) -> Ink {
-        Ink { layer, color: style.fg.unwrap_or_default(), modifier: style.add_modifier }
+impl Stroke {
+    /// The stroke of a style (foreground colour and added attributes) on a layer.
+    pub(super) fn new(layer: Layer, style: Style) -> Stroke {
+        Stroke { layer, color: style.fg.unwrap_or_default(), modifier: style.add_modifier }
     }
 }
 
@@ -61,23 +61,23 @@ impl Ink {
 struct Cell {
     /// Dots of what no sphere hides: walls, arrows.
     mask: u8,
-    ink: Ink,
+    stroke: Stroke,
     /// Dots of spheres, of which a nearer one hides those behind it.
     bodies: u8,
-    body_ink: Ink,
+    body_stroke: Stroke,
     /// A character in place of the dots.
     sign: Option<char>,
-    sign_ink: Ink,
+    sign_stroke: Stroke,
 }
 
 impl Cell {
-    /// The ink of what is seen: a sign's, else that of the higher layer among the dots.
-    fn seen(&self) -> Ink {
+    /// The stroke of what is seen: a sign's, else that of the higher layer among the dots.
+    fn seen(&self) -> Stroke {
         if self.sign.is_some() {
-            return self.sign_ink;
+            return self.sign_stroke;
         }
-        let bodies = if self.bodies == 0 { Ink::default() } else { self.body_ink };
-        if bodies.layer >= self.ink.layer { bodies } else { self.ink }
+        let bodies = if self.bodies == 0 { Stroke::default() } else { self.body_stroke };
+        if bodies.layer >= self.stroke.layer { bodies } else { self.stroke }
     }
 }
 
@@ -98,30 +98,30 @@ impl Canvas {
         Canvas { columns, cells: vec![Cell::default(); columns * rows], width, height }
     }
 
-    /// Dots across.
+    /// Width, dots.
     pub(super) fn width(&self) -> i32 {
         self.width
     }
 
-    /// Dots down.
+    /// Height, dots.
     pub(super) fn height(&self) -> i32 {
         self.height
     }
 
     /// Draws the dot at (x, y), if it is on the canvas.
-    pub(super) fn dot(&mut self, x: i32, y: i32, ink: Ink) {
+    pub(super) fn dot(&mut self, x: i32, y: i32, stroke: Stroke) {
         if x < 0 || y < 0 || x >= self.width || y >= self.height {
             return;
         }
         let (x, y) = (x as usize, y as usize);
         let cell = &mut self.cells[y / 4 * self.columns + x / 2];
         let bit = glyphs::bit(x % 2, y % 4);
-        let (mask, kept) = match ink.layer.is_body() {
-            true => (&mut cell.bodies, &mut cell.body_ink),
-            false => (&mut cell.mask, &mut cell.ink),
+        let (mask, kept) = match stroke.layer.is_body() {
+            true => (&mut cell.bodies, &mut cell.body_stroke),
+            false => (&mut cell.mask, &mut cell.stroke),
         };
-        if *mask == 0 || ink.layer >= kept.layer {
-            *kept = ink;
+        if *mask == 0 || stroke.layer >= kept.layer {
+            *kept = stroke;
         }
         *mask |= bit;
     }
@@ -148,20 +148,20 @@ impl Canvas {
     }
 
     /// Puts a character in the cell of the dot at (x, y), in place of its dots, unless one of a higher layer is there.
-    pub(super) fn sign(&mut self, x: i32, y: i32, sign: char, ink: Ink) {
+    pub(super) fn sign(&mut self, x: i32, y: i32, sign: char, stroke: Stroke) {
         if x < 0 || y < 0 || x >= self.width || y >= self.height {
             return;
         }
         let cell = &mut self.cells[y as usize / 4 * self.columns + x as usize / 2];
-        if cell.sign.is_none() || ink.layer >= cell.sign_ink.layer {
-            (cell.sign, cell.sign_ink) = (Some(sign), ink);
+        if cell.sign.is_none() || stroke.layer >= cell.sign_stroke.layer {
+            (cell.sign, cell.sign_stroke) = (Some(sign), stroke);
         }
     }
 
     /// Writes ASCII text in cells, its first character in the cell of the dot at (x, y).
-    pub(super) fn text(&mut self, x: i32, y: i32, text: &str, ink: Ink) {
+    pub(super) fn text(&mut self, x: i32, y: i32, text: &str, stroke: Stroke) {
         for (i, character) in text.chars().enumerate() {
-            self.sign(x.saturating_add(2 * i as i32), y, character, ink);
+            self.sign(x.saturating_add(2 * i as i32), y, character, stroke);
         }
     }
 
@@ -183,8 +183,8 @@ impl Canvas {
             let (column, row) = (i % self.columns, i / self.columns);
             let target = &mut sheet.buffer[(area.x + column as u16, area.y + row as u16)];
             target.set_char(cell.sign.unwrap_or_else(|| glyphs::dots(sheet.marker, mask)));
-            let ink = cell.seen();
-            (target.fg, target.modifier) = (ink.color, ink.modifier);
+            let stroke = cell.seen();
+            (target.fg, target.modifier) = (stroke.color, stroke.modifier);
         }
     }
 }

@@ -16,9 +16,9 @@ use crate::snapshot::{Class, Contact, Kind, Snapshot};
 /// Rows of the list of contacts, at most.
 const LIST: usize = 5;
 
-/// Columns for a contact's class, and for its degree.
+/// Columns for a contact's class.
 const CLASS: usize = 9;
-/// See [`CLASS`].
+/// Columns for a contact's degree.
 const DEGREE: usize = 8;
 
 /// Columns for the bodies of a contact, at least.
@@ -87,7 +87,7 @@ fn remark(number: usize, count: usize, [up, down]: [&str; 2], room: usize) -> St
     hint.map_or_else(|| place.clone(), |hint| format!("{place}{hint}"))
 }
 
-/// The contacts around the cursor, a row each; nothing if there is only one.
+/// Draws the contacts around the cursor, a row each; nothing if there is only one.
 fn draw_list(screen: &Screen, order: &[usize], cursor: usize, column: &mut Column) {
     if order.len() < 2 {
         return;

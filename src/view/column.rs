@@ -16,12 +16,12 @@ impl<'a, 'b> Column<'a, 'b> {
         Column { rest: area, sheet }
     }
 
-    /// Columns across.
+    /// Width of the column, cells.
     pub(super) fn width(&self) -> usize {
         self.rest.width.into()
     }
 
-    /// Rows left.
+    /// Rows that are left.
     pub(super) fn rows(&self) -> usize {
         self.rest.height.into()
     }
@@ -43,30 +43,30 @@ impl<'a, 'b> Column<'a, 'b> {
         taken
     }
 
-    /// A row in one style.
+    /// Writes a row in one style.
     pub(super) fn row(&mut self, text: &str, style: Style) {
         self.pieces(&[(text, style)]);
     }
 
-    /// A row of pieces.
+    /// Writes a row of pieces.
     pub(super) fn pieces(&mut self, pieces: &[(&str, Style)]) {
         let (row, rest) = split_top(self.rest, 1);
         self.sheet.put_all(row, pieces);
         self.rest = rest;
     }
 
-    /// An empty row.
+    /// Leaves a row empty.
     pub(super) fn skip(&mut self) {
         self.rest = split_top(self.rest, 1).1;
     }
 
-    /// A heading with a faint remark.
+    /// Writes a heading with a faint remark.
     pub(super) fn heading(&mut self, text: &str, remark: &str) {
         let palette = self.sheet.palette;
         self.pieces(&[(text, palette.heading()), ("  ", palette.plain()), (remark, palette.faint())]);
     }
 
-    /// A name, a value right-aligned below the one above, and a unit.
+    /// Writes a name, a value right-aligned below the one above, and a unit.
     pub(super) fn entry(&mut self, name: &str, value: &str, unit: &str) {
         let palette = self.sheet.palette;
         let head = format!("{name:<9}");

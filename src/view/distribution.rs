@@ -4,28 +4,28 @@ use glam::DVec3;
 use ratatui::layout::Rect;
 
 use super::{
-    canvas::{Canvas, Ink, Layer},
+    canvas::{Canvas, Layer, Stroke},
     column::Column,
     sheet::Sheet,
 };
 use crate::format;
 use crate::snapshot::Snapshot;
 
-/// From so many spheres on there is a distribution of speeds to be seen, and one of places.
+/// Fewest spheres of which a distribution of speeds is seen.
 const SPEEDS: usize = 50;
-/// See [`SPEEDS`].
+/// Fewest spheres of which a distribution of places is seen.
 const PLACES: usize = 14;
 
 /// Rows of the chart.
 const CHART: u16 = 7;
 
-/// Rows that must be left under it: a screen of 80×24 has as many.
+/// Rows that must be left under the chart: a screen of 80×24 has as many.
 const UNDER: usize = 12;
 
-/// Bars, at most one per column.
+/// Most bars, one per column.
 const BARS: usize = 28;
 
-/// Speeds are shown up to so many times the speed by which Maxwell's distribution is scaled: beyond is a ten-thousandth.
+/// Largest speed shown over the speed by which Maxwell's distribution is scaled: beyond is a ten-thousandth.
 const REACH: f64 = 4.5;
 
 /// What is counted.
@@ -33,16 +33,17 @@ const REACH: f64 = 4.5;
 struct Counts {
     /// Spheres in each bar.
     bars: Vec<u64>,
-    /// Where the first bar begins, and where the last ends.
+    /// Where the first bar begins, and where the last ends, m/s or m.
     ends: [f64; 2],
     /// Whether each bar is a bin of the scene.
     bins: bool,
-    /// How many Maxwell's distribution has in each, where speeds are counted.
+    /// Spheres that Maxwell's distribution has in each bar; none where places are counted.
     maxwell: Option<Vec<f64>>,
 }
 
-/// Draws the chart where there are spheres enough, and room; whether it did. Without gravity it is of speeds, which in a gas become
-/// Maxwell's; with gravity of places across, or of bins where the scene has such, which on a Galton board become a bell.
+/// Draws the chart where there are spheres enough, and room; whether it did. Without gravity it is of speeds, which in a
+/// gas become Maxwell's; with gravity of places across, or of bins where the scene has such, which on a Galton board become
+/// a bell.
 pub(super) fn draw(snapshot: &Snapshot, column: &mut Column) -> bool {
     let flies = snapshot.stage.gravity == DVec3::ZERO;
     let least = if flies { SPEEDS } else { PLACES };
@@ -71,7 +72,8 @@ pub(super) fn draw(snapshot: &Snapshot, column: &mut Column) -> bool {
     true
 }
 
-/// How many spheres are how fast. Where masses differ, the speeds are those that the mean mass would have with as much energy.
+/// Counts the spheres by speed. Where masses differ, the speeds are those that the mean mass would have with as much
+/// energy.
 fn speeds(snapshot: &Snapshot, bars: usize) -> Option<Counts> {
     let masses = &snapshot.stage.masses;
     let mean = masses.iter().sum::<f64>() / masses.len() as f64;
@@ -89,13 +91,13 @@ fn speeds(snapshot: &Snapshot, bars: usize) -> Option<Counts> {
     Some(Counts { maxwell: Some((0..bars).map(expected).collect()), ..counted })
 }
 
-/// How many spheres are where along x, in the scene's view.
+/// Counts the spheres by place along x, in the scene's view.
 fn places(snapshot: &Snapshot, bars: usize) -> Option<Counts> {
     let view = &snapshot.stage.view;
     count(snapshot.x.iter().map(|x| x.x), [view.min.x, view.max.x], bars)
 }
 
-/// How many spheres are in which bin: between two neighbours of the upright walls across x that stand lowest, and no higher than
+/// Counts the spheres by bin: between two neighbours of the upright walls across x that stand lowest, and no higher than
 /// the lower of them. None if there are no three such bins of one width.
 fn bins(snapshot: &Snapshot) -> Option<Counts> {
     let upright = |corners: &[DVec3; 4]| corners.iter().all(|corner| corner.x == corners[0].x);
@@ -123,7 +125,7 @@ fn bins(snapshot: &Snapshot) -> Option<Counts> {
     Some(Counts { bars: between.iter().map(counted).collect(), ends, bins: true, maxwell: None })
 }
 
-/// Values in bars of equal width; those beyond the ends, and what is no number, in none.
+/// Counts values in bars of equal width; those beyond the ends, and NaN, in none.
 fn count(values: impl Iterator<Item = f64>, ends: [f64; 2], bars: usize) -> Option<Counts> {
     let width = (ends[1] - ends[0]) / bars as f64;
     if !(width.is_finite() && width > 0.0) {
@@ -154,8 +156,8 @@ fn draw_chart(counts: &Counts, area: Rect, sheet: &mut Sheet) {
         return;
     }
     let (bars, width, height) = (counts.bars.len() as i32, canvas.width(), canvas.height());
-    let bar_ink = Ink::new(Layer::Wall, sheet.palette.heading());
-    let line_ink = Ink::new(Layer::Selected, sheet.palette.alarm());
+    let bar_ink = Stroke::new(Layer::Wall, sheet.palette.heading());
+    let line_ink = Stroke::new(Layer::Selected, sheet.palette.alarm());
     for x in 0..width {
         let bar = (x * bars / width) as usize;
         let top = (counts.bars[bar] as f64 / most * f64::from(height)).round() as i32;

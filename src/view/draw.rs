@@ -36,7 +36,7 @@ pub fn draw(screen: &Screen, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Status, views, inspector and timeline, each where the plan has room for it.
+/// Draws status, views, inspector and timeline, each where the plan has room for it.
 fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
     status::draw(screen, plan.status, sheet);
     if !draw_popup(screen, plan.body, sheet) {
@@ -61,7 +61,7 @@ fn draw_full(screen: &Screen, plan: &layout::Full, sheet: &mut Sheet) {
     }
 }
 
-/// Numbers only, for screens too small for a picture; popups and the prompt still show.
+/// Draws numbers only, for screens too small for a picture; popups and the prompt still show.
 fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (body, _) = layout::split_bottom(area, 1);
     let speaking = screen.message.is_some() || matches!(screen.popup, Popup::Prompt { .. });
@@ -102,7 +102,7 @@ pub fn help_scroll_limit(rows: &[(&str, &str)], settings: &ViewSettings, area: R
     popup_places(settings, area).map_or(0, |(body, _)| help::scroll_limit(rows, settings.marker, body))
 }
 
-/// (where lists go, where the prompt goes), if there is room for any.
+/// The places of lists and of the prompt, if there is room for any.
 fn popup_places(settings: &ViewSettings, area: Rect) -> Option<(Rect, Rect)> {
     match Plan::new(area, settings, DVec3::ZERO) {
         Plan::TooSmall => None,

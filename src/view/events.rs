@@ -13,16 +13,16 @@ use super::{
 use crate::format;
 use crate::snapshot::{Class, Kind, Logged, Snapshot};
 
-/// Before the filter's text.
+/// The text before the filter's.
 const BEFORE: &str = " log  ";
 
-/// Columns for a time, the two bodies, a class, the speeds, an impulse.
+/// Columns for a time.
 const TIME: usize = 10;
-/// See [`TIME`].
+/// Columns for the two bodies.
 const BODIES: usize = 14;
-/// See [`TIME`].
+/// Columns for a class.
 const CLASS: usize = 10;
-/// See [`TIME`].
+/// Columns for the speeds before and after.
 const SPEEDS: usize = 23;
 
 /// Draws heading, filter and as many events as fit, the one under the cursor among them.
@@ -47,7 +47,8 @@ pub(super) fn draw(list: &EventsView, snapshot: &Snapshot, body: Rect, sheet: &m
     }
 }
 
-/// A row: when, which bodies, what, v_n before and after, impulse. What is still to come from the frame shown recedes.
+/// Draws an event in a row: when, which bodies, what, v_n before and after, impulse. What is still to come from the frame
+/// shown recedes.
 fn draw_event(event: &Logged, (chosen, to_come): (bool, bool), row: Rect, sheet: &mut Sheet) {
     let (palette, glyphs) = (sheet.palette, sheet.glyphs);
     let bodies = match event.kind {
@@ -93,7 +94,7 @@ fn draw_event(event: &Logged, (chosen, to_come): (bool, bool), row: Rect, sheet:
     sheet.put_all(row, &pieces[..fitting]);
 }
 
-/// What was typed, or how to; how many there are, and how many are not kept.
+/// Draws what was typed, or how to type; how many events there are, and how many are not kept.
 fn draw_head(list: &EventsView, shown: &[(u64, &Logged)], cursor: usize, head: Rect, sheet: &mut Sheet) {
     let palette = sheet.palette;
     let mut used = sheet.put_all(head, &[(BEFORE, palette.heading()), (list.typed, palette.strong())]);

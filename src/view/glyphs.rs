@@ -5,13 +5,13 @@ use super::screen::Marker;
 /// The signs a frame is made of, beside dots and words.
 #[derive(Debug, PartialEq)]
 pub(super) struct Glyphs {
-    /// Ends a text cut short.
+    /// The end of a text cut short.
     pub(super) ellipsis: &'static str,
-    /// "becomes".
+    /// The sign for "becomes".
     pub(super) arrow: &'static str,
-    /// Factor sign.
+    /// The sign before a factor.
     pub(super) times: &'static str,
-    /// Between two bodies.
+    /// The sign between two bodies.
     pub(super) with: &'static str,
     /// Labels of the side view's axes.
     pub(super) side_axes: &'static str,
@@ -25,11 +25,11 @@ pub(super) struct Glyphs {
     pub(super) levels: &'static [char],
     /// Marks of a contact: impact, rest, leaving.
     pub(super) contact: [char; 3],
-    /// More rows: above, below.
+    /// Signs for more rows above and below.
     pub(super) more: [&'static str; 2],
-    /// A wall goes on beyond the view: to the left, the right, up, down.
+    /// Signs for a wall that goes on beyond the view: to the left, the right, up, down.
     pub(super) on: [char; 4],
-    /// Entry under the cursor.
+    /// The sign before the entry under the cursor.
     pub(super) pointer: &'static str,
 }
 

@@ -57,7 +57,7 @@ pub(super) fn scroll_limit(keys: &[(&str, &str)], marker: Marker, body: Rect) ->
     Table::of(keys, glyphs(marker), place).rows().saturating_sub(place.height.into())
 }
 
-/// (heading, table).
+/// The places of the heading and of the table.
 fn split(body: Rect) -> (Rect, Rect) {
     split_top(body, u16::from(body.height > 2))
 }
@@ -71,7 +71,7 @@ impl Table {
         Table::new(&entries, place)
     }
 
-    /// As few columns as show everything at once, and never more than fit side by side.
+    /// The table in as few columns as show everything at once, and never in more than fit side by side.
     fn new(entries: &[(&str, &str)], place: Rect) -> Table {
         let most = (place.width / LEAST).max(1);
         let fits = |table: &Table| table.rows() <= place.height.into();

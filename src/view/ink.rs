@@ -3,9 +3,9 @@
 /// A colour of the user's choice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ink {
-    /// That of the terminal's text.
+    /// The colour of the terminal's text.
     Text,
-    /// One of the terminal's own 16, by its number.
+    /// One of the terminal's own 16 colours, by its number.
     Ansi(u8),
     /// Red, green and blue.
     Rgb(u8, u8, u8),
@@ -31,7 +31,7 @@ pub struct Inks {
     pub ghost: Option<Ink>,
     /// Contact normals.
     pub normal: Option<Ink>,
-    /// What spheres without a telling colour of their own take in turn: the first of these that are given.
+    /// Colours that spheres without a telling colour of their own take in turn: the first of these that are given.
     pub spheres: [Option<Ink>; MOST_TURNS],
 }
 

@@ -17,9 +17,9 @@ use crate::snapshot::{Class, Contact, Kind, Snapshot};
 /// Rows of what the model leaves out, at most.
 const LEFT_OUT: usize = 3;
 
-/// Rows of the run's balance, and those that the contacts should have at least.
+/// Rows of the run's balance.
 const RUN: usize = 9 + LEFT_OUT;
-/// See [`RUN`].
+/// Fewest rows that the contacts should have.
 const CONTACTS: usize = 14;
 
 /// Rows kept for the search for the collision time, if there was one.
@@ -43,7 +43,7 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     probes::draw(&probes::Search::new(screen.snapshot, None), &mut column);
 }
 
-/// Energy and tallies of the whole run.
+/// Draws energy and tallies of the whole run.
 fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     let tallies = snapshot.tallies;
     let unsolved = match tallies.unconverged {
@@ -65,7 +65,7 @@ fn draw_run(snapshot: &Snapshot, column: &mut Column) {
     column.skip();
 }
 
-/// What the model leaves out, because the scene does not require it.
+/// Draws what the model leaves out, because the scene does not require it.
 fn draw_left_out(snapshot: &Snapshot, column: &mut Column) {
     if snapshot.left_out.is_empty() {
         return;
@@ -80,7 +80,7 @@ fn draw_left_out(snapshot: &Snapshot, column: &mut Column) {
     }
 }
 
-/// Two rows a contact: bodies, class, degree; approach speed before → separation speed after, impulse.
+/// Draws two rows a contact: bodies, class, degree; approach speed before → separation speed after, impulse.
 fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
     let contacts = &snapshot.contacts;
     column.heading("contacts", &format!("{} in this frame", contacts.len()));
@@ -100,7 +100,7 @@ fn draw_contacts(snapshot: &Snapshot, column: &mut Column) {
     }
 }
 
-/// What the two rows of a contact say, in the same columns.
+/// Draws what the two rows of a contact say, in the columns of these rows.
 fn draw_legend(column: &mut Column) {
     let (faint, arrow) = (column.sheet().palette.faint(), column.sheet().glyphs.arrow);
     let bodies = column.width().saturating_sub(CLASS + DEGREE);
@@ -110,7 +110,7 @@ fn draw_legend(column: &mut Column) {
 
 /// Columns for a contact's class.
 const CLASS: usize = 9;
-/// Columns for its degree.
+/// Columns for a contact's degree.
 const DEGREE: usize = 8;
 
 fn draw_contact(contact: &Contact, column: &mut Column) {

@@ -7,10 +7,10 @@ use super::projection::{Sizes, fit};
 use super::screen::{ViewSettings, Views};
 use super::side::Side;
 
-/// The views stand one over the other where that draws the scene larger by this factor.
+/// Factor by which the views one over the other must draw the scene larger to stand so.
 const LARGER: f64 = 1.15;
 
-/// A scene so many times deeper than it is high lies flat: what happens in it is seen from above.
+/// Depth over height from which a scene lies flat: what happens in it is seen from above.
 const FLAT: f64 = 2.0;
 
 /// Rows that each of two views over each other has at least.
@@ -22,11 +22,11 @@ const WIDE: u16 = 110;
 /// The screen's plan, by its size.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Plan {
-    /// Under 12×3: says so.
+    /// Under 12×3 cells: only that the screen is too small.
     TooSmall,
-    /// Under 30×8: numbers only.
+    /// Under 30×8 cells: numbers only.
     Numbers {
-        /// All of it.
+        /// The whole screen.
         area: Rect,
     },
     /// Anything larger: a picture.
@@ -36,7 +36,7 @@ pub(super) enum Plan {
 /// A screen with a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Full {
-    /// First row.
+    /// The first row.
     pub(super) status: Rect,
     /// Everything between status and timeline: panes and inspector, or a popup in their place.
     pub(super) body: Rect,
@@ -59,7 +59,7 @@ pub(super) struct Pane {
     pub(super) side: Side,
     /// The label's row.
     pub(super) label: Rect,
-    /// The dots.
+    /// The place of the dots.
     pub(super) canvas: Rect,
 }
 
@@ -140,7 +140,7 @@ fn panes(views: Rect, area: Rect, settings: &ViewSettings, (inspected, extent): 
     }
 }
 
-/// Side by side. An odd column is left free in the middle: equal widths keep one x in one column of both.
+/// The panes side by side. An odd column is left free in the middle: equal widths keep one x in one column of both.
 fn beside(views: Rect) -> [Pane; 2] {
     let (left, rest) = split_left(views, views.width / 2);
     let (_, right) = split_right(rest, views.width / 2);
@@ -170,25 +170,25 @@ fn pane(side: Side, area: Rect) -> Pane {
     Pane { side, label, canvas }
 }
 
-/// (first `rows` rows, the rest).
+/// The first `rows` rows, and the rest.
 pub(super) fn split_top(area: Rect, rows: u16) -> (Rect, Rect) {
     let rows = rows.min(area.height);
     (Rect { height: rows, ..area }, Rect { y: area.y + rows, height: area.height - rows, ..area })
 }
 
-/// (the rest, last `rows` rows).
+/// The rest, and the last `rows` rows.
 pub(super) fn split_bottom(area: Rect, rows: u16) -> (Rect, Rect) {
     let (rest, bottom) = split_top(area, area.height.saturating_sub(rows));
     (rest, bottom)
 }
 
-/// (first `columns` columns, the rest).
+/// The first `columns` columns, and the rest.
 pub(super) fn split_left(area: Rect, columns: u16) -> (Rect, Rect) {
     let columns = columns.min(area.width);
     (Rect { width: columns, ..area }, Rect { x: area.x + columns, width: area.width - columns, ..area })
 }
 
-/// (the rest, last `columns` columns).
+/// The rest, and the last `columns` columns.
 pub(super) fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
     split_left(area, area.width.saturating_sub(columns))
 }

@@ -2,7 +2,7 @@
 
 use super::glyphs::Glyphs;
 
-/// (sign, what it means), for the signs of a marker.
+/// The signs of a marker, each with what it means.
 pub(super) fn signs(glyphs: &Glyphs) -> Vec<(String, &'static str)> {
     let [collides, rests, leaves] = glyphs.contact;
     let [kept, gone, to_come, here] = glyphs.track;

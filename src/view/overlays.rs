@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{
     arrows::{Quantity, draw_arrow, draw_pushes},
-    canvas::{Ink, Layer},
+    canvas::{Layer, Stroke},
     card,
     pane::View,
     paths,
@@ -49,9 +49,9 @@ pub(super) fn draw_signs(view: &mut View, sheet: &Sheet) {
     }
 }
 
-/// The simulated time that the velocity arrows stand for, s: an arrow goes from the sphere's rim to where that point
-/// would be after so long without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of the width, so
-/// that arrows of different frames can be compared; `None` if nothing moves.
+/// The simulated time that the velocity arrows stand for, s: an arrow goes from the sphere's rim to where that point would
+/// be after so long without forces. The largest of 1, 2, 5 × 10ᵏ s for which the fastest arrow is no longer than a fifth of
+/// the width, so that arrows of different frames can be compared; `None` if nothing moves.
 pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
     let squares = view.screen.snapshot.v.iter().map(|v| v.length_squared()).filter(|square| square.is_finite());
     let fastest = squares.fold(0.0, f64::max).sqrt();
@@ -61,39 +61,40 @@ pub(super) fn arrow_seconds(view: &View) -> Option<f64> {
 
 fn draw_velocities(view: &mut View, sheet: &Sheet) {
     let Some(seconds) = arrow_seconds(view) else { return };
-    let ink = Ink::new(Layer::Arrow, sheet.palette.velocity());
+    let stroke = Stroke::new(Layer::Arrow, sheet.palette.velocity());
     let snapshot = view.screen.snapshot;
     for ((x, v), radius) in snapshot.x.iter().zip(&snapshot.v).zip(&snapshot.stage.radii) {
         let rim = *x + v.normalize_or_zero() * *radius;
-        draw_arrow(view, rim, rim + *v * seconds, ink);
+        draw_arrow(view, rim, rim + *v * seconds, stroke);
     }
 }
 
-/// The normal of every contact, from the far side of each sphere that it pushes: under the sphere's own dots it would vanish.
+/// Draws the normal of every contact, from the far side of each sphere that it pushes: under the sphere's own dots it would
+/// vanish.
 fn draw_normals(view: &mut View, sheet: &Sheet) {
-    let ink = Ink::new(Layer::Arrow, sheet.palette.normal());
+    let stroke = Stroke::new(Layer::Arrow, sheet.palette.normal());
     for contact in &view.screen.snapshot.contacts {
-        draw_pushes(view, contact, NORMAL / view.camera.scale, ink);
+        draw_pushes(view, contact, NORMAL / view.camera.scale, stroke);
     }
 }
 
-/// The contact whose card is open: its normal, and the wall's number beside its point.
+/// Draws the contact whose card is open: its normal, and the wall's number beside its point.
 fn draw_chosen(view: &mut View, sheet: &Sheet) {
     let chosen = view.screen.view_settings.card.and_then(|card| card::chosen(view.screen, card));
     let Some(contact) = chosen.map(|index| view.screen.snapshot.contacts[index]) else { return };
     let style = sheet.palette.alarm().patch(sheet.palette.strong());
-    draw_pushes(view, &contact, NORMAL / view.camera.scale, Ink::new(Layer::Selected, style));
+    draw_pushes(view, &contact, NORMAL / view.camera.scale, Stroke::new(Layer::Selected, style));
     let behind = contact.point - contact.normal * (BEHIND / view.camera.scale);
     if contact.kind == Kind::Wall && on_canvas(view, contact.point).is_some() {
         let text = format!("w{}", contact.b);
         let (x, y) = view.project(behind);
         let (right, bottom) = (view.canvas.width() - 2 * text.len() as i32, view.canvas.height() - 1);
         let at = (x.round().clamp(0.0, f64::from(right.max(0))), y.round().clamp(0.0, f64::from(bottom)));
-        view.canvas.text(at.0 as i32, at.1 as i32, &text, Ink::new(Layer::Selected, style));
+        view.canvas.text(at.0 as i32, at.1 as i32, &text, Stroke::new(Layer::Selected, style));
     }
 }
 
-/// A sign at each contact point: a cross for an impact, a bullet for a rest, a small dot for what leaves.
+/// Draws a sign at each contact point: a cross for an impact, a bullet for a rest, a small dot for what leaves.
 fn draw_contacts(view: &mut View, sheet: &Sheet) {
     let [collides, rests, leaves] = sheet.glyphs.contact;
     for contact in &view.screen.snapshot.contacts {
@@ -103,12 +104,12 @@ fn draw_contacts(view: &mut View, sheet: &Sheet) {
             Class::Leave | Class::Release => (leaves, sheet.palette.plain()),
         };
         if let Some((x, y)) = on_canvas(view, contact.point) {
-            view.canvas.sign(x, y, sign, Ink::new(Layer::Contact, style));
+            view.canvas.sign(x, y, sign, Stroke::new(Layer::Contact, style));
         }
     }
 }
 
-/// A sphere's number: in it if it is large enough, else to its upper right. The selected one's has a `#`.
+/// Draws a sphere's number: in it if it is large enough, else to its upper right. The selected one's has a `#`.
 fn draw_number(view: &mut View, sphere: usize, taken: &mut [bool], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let (Some(x), Some(radius)) = (snapshot.x.get(sphere), snapshot.stage.radii.get(sphere)) else { return };
@@ -125,7 +126,7 @@ fn draw_number(view: &mut View, sphere: usize, taken: &mut [bool], sheet: &Sheet
         (x + (aside * 0.8) as i32 + 1, y - (aside * 0.8) as i32 - 1)
     };
     if takes(view, (x, y), text.len(), taken) {
-        view.canvas.text(x, y, &text, Ink::new(layer, sheet.palette.strong()));
+        view.canvas.text(x, y, &text, Stroke::new(layer, sheet.palette.strong()));
     }
 }
 

@@ -20,11 +20,11 @@ pub(super) struct Palette {
 /// What a role looks like where the user has not said.
 #[derive(Debug, Clone, Copy)]
 struct Role {
-    /// On a dark background.
+    /// The colour on a dark background.
     dark: Color,
-    /// On a light one with 16 colours: of those only blue, magenta and red can be read on white.
+    /// The colour on a light background with 16 colours: of those only blue, magenta and red can be read on white.
     light: Color,
-    /// On a light one with 256 colours or more, by its number among them.
+    /// The colour on a light background with 256 colours or more, by its number among them.
     light_of_256: u8,
 }
 
@@ -40,7 +40,7 @@ const VELOCITY: Role = role(Color::Green, Color::Blue, 22);
 const GHOST: Role = role(Color::LightCyan, Color::Blue, 24);
 const NORMAL: Role = role(Color::LightMagenta, Color::Magenta, 127);
 
-/// What spheres without a telling colour of their own take in turn; red stays for impacts.
+/// Colours that spheres without a telling colour of their own take in turn; red stays for impacts.
 const TURNS: [Role; 5] = [
     role(Color::Cyan, Color::Blue, 24),
     role(Color::Yellow, Color::Magenta, 94),
@@ -238,7 +238,7 @@ fn luminance(rgb: [f64; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-/// The colour with as little of black (0) or white (1) as is enough; all of it is.
+/// The colour mixed with as little of black (0) or white (1) as is enough; black or white alone is always enough.
 fn mixed(rgb: [f64; 3], other: f64, enough: impl Fn([f64; 3]) -> bool) -> [f64; 3] {
     let with = |share: f64| rgb.map(|channel| channel + share * (other - channel));
     let (mut low, mut high) = (0.0, 1.0);

@@ -9,11 +9,11 @@ use super::{canvas::Canvas, projection::Camera, screen::Screen, shapes, side::Si
 pub(super) struct View<'a> {
     /// Which projection.
     pub(super) side: Side,
-    /// Where it is on the screen, cells.
+    /// The view's place on the screen, cells.
     pub(super) area: Rect,
-    /// Metres to dots.
+    /// The map from metres to dots.
     pub(super) camera: Camera,
-    /// The dots.
+    /// The dots drawn so far.
     pub(super) canvas: Canvas,
     /// What is shown.
     pub(super) screen: &'a Screen<'a>,

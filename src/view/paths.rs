@@ -3,16 +3,16 @@
 use glam::DVec3;
 
 use super::{
-    canvas::{Ink, Layer},
+    canvas::{Layer, Stroke},
     pane::View,
     shapes,
     sheet::Sheet,
 };
 
-/// With so many spheres all paths are drawn where none is selected; more would be a carpet.
+/// Most spheres of which all paths are drawn where none is selected; more would be a carpet.
 const FEW: usize = 20;
 
-/// Dots from one of a predicted path to the next.
+/// Distance between two signs of a predicted path, dots.
 const APART: f64 = 3.0;
 
 /// Draws the paths that are wanted, under the spheres.
@@ -27,23 +27,23 @@ pub(super) fn draw(view: &mut View, sheet: &Sheet) {
         }
     }
     if let Some(ahead) = screen.ahead.filter(|ahead| overlays.predicted && Some(ahead.sphere) == selected) {
-        draw_ahead(view, &ahead.path, Ink::new(Layer::Arrow, sheet.palette.strong()));
+        draw_ahead(view, &ahead.path, Stroke::new(Layer::Arrow, sheet.palette.strong()));
     }
 }
 
-/// A line through the centres in the last frames.
+/// Draws a line through the centres in the last frames.
 fn draw_trail(view: &mut View, sphere: usize, sheet: &Sheet) {
     let color = view.screen.snapshot.stage.colors.get(sphere).copied().flatten();
-    let ink = Ink::new(Layer::Ghost, sheet.palette.sphere(sphere, color).patch(sheet.palette.faint()));
+    let stroke = Stroke::new(Layer::Ghost, sheet.palette.sphere(sphere, color).patch(sheet.palette.faint()));
     let places = view.screen.trail.iter().filter_map(|places| places.get(sphere));
     let dots: Vec<shapes::Dots> = places.map(|x| view.project(*x)).collect();
     for ends in dots.windows(2) {
-        shapes::line(&mut view.canvas, ends[0], ends[1], ink);
+        shapes::line(&mut view.canvas, ends[0], ends[1], stroke);
     }
 }
 
-/// Dots at equal distances along a path that is still to come.
-fn draw_ahead(view: &mut View, path: &[DVec3], ink: Ink) {
+/// Draws dots at equal distances along a path (m) that is still to come.
+fn draw_ahead(view: &mut View, path: &[DVec3], stroke: Stroke) {
     let dots: Vec<shapes::Dots> = path.iter().map(|x| view.project(*x)).collect();
     let reach = f64::from(view.canvas.width() + view.canvas.height());
     let mut left = APART;
@@ -57,7 +57,7 @@ fn draw_ahead(view: &mut View, path: &[DVec3], ink: Ink) {
         while at <= length {
             let share = at / length;
             let (x, y) = (ends[0].0 + share * dx, ends[0].1 + share * dy);
-            view.canvas.dot(x.round() as i32, y.round() as i32, ink);
+            view.canvas.dot(x.round() as i32, y.round() as i32, stroke);
             at += APART;
         }
         left = at - length;

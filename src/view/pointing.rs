@@ -43,7 +43,7 @@ impl Aim {
         Some(Aim { side: pane.side, canvas: pane.canvas, camera })
     }
 
-    /// From the centre of the view to the centre of a cell, m; 0 along the line of sight.
+    /// The way from the centre of the view to the centre of a cell, m; 0 along the line of sight.
     pub fn offset(&self, at: Position) -> DVec3 {
         let middle = |from: u16, length: u16| f64::from(from) + f64::from(length) * 0.5 - 0.5;
         let columns = f64::from(at.x) - middle(self.canvas.x, self.canvas.width);
@@ -51,7 +51,7 @@ impl Aim {
         self.shift(columns, rows)
     }
 
-    /// So many cells to the right and down, m.
+    /// The way across `columns` cells to the right and `rows` cells down, m.
     pub fn shift(&self, columns: f64, rows: f64) -> DVec3 {
         let (right, down) = (columns * f64::from(ACROSS), rows * f64::from(DOWN));
         let across = match self.side {
@@ -92,7 +92,7 @@ impl Aim {
     }
 }
 
-/// (index, value) of the least; what is no number is none.
+/// Index and value of the least; NaN is left out.
 fn least(values: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
     values.enumerate().filter(|(_, value)| value.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
 }

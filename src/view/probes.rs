@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::{
-    canvas::{Canvas, Ink, Layer},
+    canvas::{Canvas, Layer, Stroke},
     column::Column,
     sheet::Sheet,
 };
@@ -19,7 +19,7 @@ const BESIDE: usize = 6;
 /// Fewest columns that a chart needs.
 const NARROW: usize = 20;
 
-/// The chart shows degrees up to so many times what is accepted; what is beyond lies on its edge.
+/// Largest degree on the chart over the one accepted; what is beyond lies on the chart's edge.
 const RANGE: f64 = 4.0;
 
 /// Columns of a row without its last word.
@@ -28,7 +28,7 @@ const PLAIN: usize = 26;
 /// What there is to show of a search.
 pub(super) struct Search<'a> {
     probes: &'a [Probe],
-    /// The largest degree accepted, if any overlap is.
+    /// The largest degree accepted, dimensionless; none if no overlap is.
     limit: f64,
     /// The trial step that is shown in the views, if one is.
     at: Option<usize>,
@@ -51,7 +51,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Half the height of the chart, a degree.
+    /// Half the height of the chart, in degrees of overlap.
     fn range(&self) -> f64 {
         let finite = self.probes.iter().map(|probe| probe.degree.abs()).filter(|degree| degree.is_finite());
         let most = finite.fold(0.0, f64::max);
@@ -94,7 +94,7 @@ fn draw_step(search: &Search, index: usize, column: &mut Column) {
     column.row(&format!("{}  {shown} {touching} {verdict}", format::decimal(step, 12, 9)), style);
 }
 
-/// Degree over step: touching at the middle line, accepted between it and the one above, each trial step a sign.
+/// Draws degree over step: touching at the middle line, accepted between it and the one above, each trial step a sign.
 fn draw_chart(search: &Search, column: &mut Column) {
     let area = column.take(CHART);
     let longest = search.probes.iter().map(|probe| probe.step).fold(0.0, f64::max);
@@ -117,21 +117,21 @@ fn draw_chart(search: &Search, column: &mut Column) {
         };
         let style = if search.at == Some(index) { style.patch(sheet.palette.strong()) } else { style };
         let layer = if search.at == Some(index) { Layer::Selected } else { Layer::Contact };
-        canvas.sign(x as i32, y as i32, sign, Ink::new(layer, style));
+        canvas.sign(x as i32, y as i32, sign, Stroke::new(layer, style));
     }
     canvas.paint(area, sheet);
     draw_legend(search, [range, longest], area, sheet);
 }
 
-/// The accepted degrees: two dotted lines.
+/// Draws the bounds of the accepted degrees as two dotted lines.
 fn draw_band(canvas: &mut Canvas, lines: [f64; 2], sheet: &Sheet) {
-    let ink = Ink::new(Layer::Wall, sheet.palette.notice());
+    let stroke = Stroke::new(Layer::Wall, sheet.palette.notice());
     for (line, every) in lines.into_iter().zip([2, 4]) {
-        (0..canvas.width()).step_by(every).for_each(|x| canvas.dot(x, line.round() as i32, ink));
+        (0..canvas.width()).step_by(every).for_each(|x| canvas.dot(x, line.round() as i32, stroke));
     }
 }
 
-/// The ends of both axes, in the corners.
+/// Draws the ends of both axes, in the corners.
 fn draw_legend(search: &Search, [range, longest]: [f64; 2], area: Rect, sheet: &mut Sheet) {
     let faint = sheet.palette.faint();
     let top = format::digits(range, 0);

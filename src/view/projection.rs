@@ -9,9 +9,9 @@ use crate::snapshot::Stage;
 /// Dots kept free around the scene's view box at zoom 1, so that its walls are seen and the views do not touch.
 const MARGIN: f64 = 2.0;
 
-/// Dots of a cell: 2 across, 4 down. A cell is twice as high as wide, so a dot is square.
+/// Dots of a cell from its left to its right. A cell is twice as high as wide, so that with 4 dots down a dot is square.
 pub(super) const ACROSS: u16 = 2;
-/// See [`ACROSS`].
+/// Dots of a cell from its top to its bottom.
 pub(super) const DOWN: u16 = 4;
 
 /// Where one looks, and how closely.
@@ -24,7 +24,7 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// The camera for views of these sizes (cells). `followed`: where the followed sphere is, m.
+    /// The camera for views of these sizes (cells); `followed` is the centre of the followed sphere, m.
     pub(super) fn new(settings: &ViewSettings, stage: &Stage, followed: Option<DVec3>, sizes: Sizes) -> Camera {
         let (min, max) = (stage.view.min, stage.view.max);
         let home = min + (max - min) * 0.5 + settings.pan;

@@ -20,7 +20,8 @@ pub(super) fn draw_last_row(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// The first row of `area` stays: it says what runs.
+/// Draws news in the last row of `area` and as many over it as it needs; the first row of `area` stays, since it says what
+/// runs.
 fn draw_message(message: &str, area: Rect, sheet: &mut Sheet) {
     let lines = sheet::wrap(message, area.width.saturating_sub(2));
     let rows = (lines.len() as u16).clamp(1, area.height.saturating_sub(1).max(1));
@@ -33,7 +34,8 @@ fn draw_message(message: &str, area: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// The cursor stays visible, however long the text is; what a word may go on as stands behind it, where there is room.
+/// Draws the `:` line. The cursor stays visible, however long the text is; what a word may go on as stands behind it, where
+/// there is room.
 fn draw_prompt(text: &str, cursor: usize, offers: &str, area: Rect, sheet: &mut Sheet) {
     let used = sheet.put(area, ":", sheet.palette.strong());
     let (_, rest) = split_left(area, used);
@@ -47,12 +49,12 @@ fn draw_prompt(text: &str, cursor: usize, offers: &str, area: Rect, sheet: &mut 
     sheet.put_all(rest, &pieces);
 }
 
-/// The text before the cursor, and from there on.
+/// The text before the cursor, and the text from there on.
 fn split(text: &str, cursor: usize) -> (&str, &str) {
     text.split_at_checked(cursor).unwrap_or((text, ""))
 }
 
-/// As much of a text's end as fits so many columns.
+/// The end of a text, as much as fits `columns`.
 fn tail(text: &str, columns: usize) -> &str {
     let starts = text.char_indices().map(|(i, _)| &text[i..]);
     starts.chain([""]).find(|tail| sheet::width(tail) <= columns).unwrap_or("")
@@ -65,7 +67,7 @@ pub(super) fn cursor(text: &str, cursor: usize, area: Rect) -> Option<Position> 
     (column < area.width.into()).then(|| Position::new(area.x + column as u16, area.y))
 }
 
-/// As many hints as fit whole.
+/// Draws as many hints as fit whole.
 fn draw_hints(hints: &[(&str, &str)], area: Rect, sheet: &mut Sheet) {
     let (_, mut rest) = split_left(area, 1);
     for (keys, does) in hints {

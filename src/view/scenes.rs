@@ -11,15 +11,15 @@ use super::{
 pub(super) struct List<'a> {
     /// What was typed after `/`.
     pub(super) filter: &'a str,
-    /// Whether it is being typed.
+    /// Whether the filter is being typed.
     pub(super) filtering: bool,
-    /// (name, about) of the scenes that pass it.
+    /// Name and `about` of the scenes that pass the filter.
     pub(super) entries: &'a [(&'a str, &'a str)],
-    /// The one under the cursor.
+    /// Index of the scene under the cursor.
     pub(super) cursor: usize,
 }
 
-/// Columns before the filter's text.
+/// The text before the filter's.
 const BEFORE_FILTER: &str = " scenes  /";
 
 /// Draws heading, filter and as many entries as fit, the one under the cursor among them.

@@ -16,7 +16,7 @@ pub struct Screen<'a> {
     pub pace: Pace,
     /// Collisions so far.
     pub ticks: &'a Ticks,
-    /// Which frames one can go to.
+    /// Which frames can be gone to.
     pub kept: Kept,
     /// Where all spheres were in the last frames, the one shown included, the newest last, m, if that is known.
     pub trail: &'a [Arc<Vec<DVec3>>],
@@ -80,7 +80,7 @@ pub struct ViewSettings {
     pub zoom: f64,
     /// Shift of the centre of view from the centre of the scene's view box, m.
     pub pan: DVec3,
-    /// Keep the selected sphere in the centre.
+    /// Whether the selected sphere stays in the centre.
     pub follow: bool,
     /// The selected sphere.
     pub selected: Option<usize>,
@@ -180,13 +180,13 @@ pub enum Marker {
 /// Depth of colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colors {
-    /// None; bold and reverse stay.
+    /// No colours; bold and reverse stay.
     Never,
-    /// The terminal's own 16.
+    /// The terminal's own 16 colours.
     Ansi16,
     /// The 256-colour cube.
     Ansi256,
-    /// 24 bits.
+    /// Colours of 24 bits.
     Rgb,
 }
 
@@ -225,7 +225,7 @@ pub enum Popup<'a> {
         filtering: bool,
         /// The scenes that pass the filter: (name, about).
         entries: &'a [(&'a str, &'a str)],
-        /// The one under the cursor.
+        /// Index of the scene under the cursor.
         cursor: usize,
     },
     /// The list of all that has happened.
@@ -234,9 +234,9 @@ pub enum Popup<'a> {
     Prompt {
         /// Text after the colon.
         text: &'a str,
-        /// The byte of it before which the cursor is.
+        /// Byte of the text before which the cursor is.
         cursor: usize,
-        /// What its last word may go on as.
+        /// What the last word of the text may go on as.
         offers: &'a str,
     },
 }

@@ -3,30 +3,30 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::canvas::{Canvas, Ink};
+use super::canvas::{Canvas, Stroke};
 
 /// A point in dots: the centre of dot (i, j) is (i, j).
 pub(super) type Dots = (f64, f64);
 
-/// A straight line from `a` to `b`: one dot in each column, or each row if it is steep, as far as it is on the canvas.
-/// Nothing if a coordinate is not finite.
-pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, ink: Ink) {
+/// Draws a straight line from `a` to `b`: one dot in each column, or each row if it is steep, as far as it is on the
+/// canvas. Nothing if a coordinate is not finite.
+pub(super) fn line(canvas: &mut Canvas, a: Dots, b: Dots, stroke: Stroke) {
     let Some((a, b)) = clip(canvas, a, b) else { return };
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let slope = |rise: f64, run: f64| if run == 0.0 { 0.0 } else { rise / run };
     if dx.abs() >= dy.abs() {
         for x in between(a.0, b.0) {
-            canvas.dot(x, (a.1 + (f64::from(x) - a.0) * slope(dy, dx)).round() as i32, ink);
+            canvas.dot(x, (a.1 + (f64::from(x) - a.0) * slope(dy, dx)).round() as i32, stroke);
         }
     } else {
         for y in between(a.1, b.1) {
-            canvas.dot((a.0 + (f64::from(y) - a.1) * slope(dx, dy)).round() as i32, y, ink);
+            canvas.dot((a.0 + (f64::from(y) - a.1) * slope(dx, dy)).round() as i32, y, stroke);
         }
     }
 }
 
-/// Where a line that is partly on the canvas goes on beyond its border: the last dot there, and whether it goes on to the left, the
-/// right, up or down.
+/// Where a line that is partly on the canvas goes on beyond its border: the last dot there, and whether it goes on to the
+/// left, the right, up or down.
 pub(super) fn leaves(canvas: &Canvas, a: Dots, b: Dots) -> Vec<(i32, i32, usize)> {
     let Some((from, to)) = clip(canvas, a, b) else { return Vec::new() };
     let (right, bottom) = (canvas.width() - 1, canvas.height() - 1);
@@ -40,7 +40,7 @@ pub(super) fn leaves(canvas: &Canvas, a: Dots, b: Dots) -> Vec<(i32, i32, usize)
     at.collect()
 }
 
-/// From the dot nearest to one coordinate to the dot nearest to another.
+/// The dots from the one nearest to `a` to the one nearest to `b`.
 fn between(a: f64, b: f64) -> std::ops::RangeInclusive<i32> {
     a.min(b).round() as i32..=a.max(b).round() as i32
 }
@@ -67,26 +67,26 @@ fn clip(canvas: &Canvas, a: Dots, b: Dots) -> Option<(Dots, Dots)> {
     (enter <= leave).then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
 
-/// The circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it, in
-/// its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
-pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
-    rim(canvas, c, r, |_, _| true, ink);
+/// Draws the circle of radius `r` dots about `c`, one dot wide: in its steep parts the two dots of each row nearest to it,
+/// in its flat parts the two of each column. No dot's centre is farther than half a dot from the true circle.
+pub(super) fn circle(canvas: &mut Canvas, c: Dots, r: f64, stroke: Stroke) {
+    rim(canvas, c, r, |_, _| true, stroke);
 }
 
-/// A circle of radius `r` dots about `c` with every other dot left out.
-pub(super) fn dotted_circle(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
-    rim(canvas, c, r, |x, y| (x ^ y) & 1 == 0, ink);
+/// Draws a circle of radius `r` dots about `c` with every other dot left out.
+pub(super) fn dotted_circle(canvas: &mut Canvas, c: Dots, r: f64, stroke: Stroke) {
+    rim(canvas, c, r, |x, y| (x ^ y) & 1 == 0, stroke);
 }
 
-/// The dots of a circle that are wanted.
-fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, ink: Ink) {
+/// Draws the dots of a circle that are wanted.
+fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, stroke: Stroke) {
     if !meets(canvas, c, r) {
         return;
     }
     let (width, height) = (canvas.width(), canvas.height());
     let mut dot = |x: i32, y: i32| {
         if wanted(x, y) {
-            canvas.dot(x, y, ink);
+            canvas.dot(x, y, stroke);
         }
     };
     // Half a dot more than the eighth of the circle, so that steep and flat parts meet without a hole.
@@ -103,16 +103,16 @@ fn rim(canvas: &mut Canvas, c: Dots, r: f64, wanted: impl Fn(i32, i32) -> bool, 
     }
 }
 
-/// The disc of radius `r` dots about `c`: every `every`-th row of the dots whose centres are in it, and at least the dot
-/// nearest to `c`.
-pub(super) fn disc(canvas: &mut Canvas, c: Dots, r: f64, every: i32, ink: Ink) {
+/// Draws the disc of radius `r` dots about `c`: every `every`-th row of the dots whose centres are in it, and at least the
+/// dot nearest to `c`.
+pub(super) fn disc(canvas: &mut Canvas, c: Dots, r: f64, every: i32, stroke: Stroke) {
     if !meets(canvas, c, r) {
         return;
     }
-    canvas.dot(c.0.round() as i32, c.1.round() as i32, ink);
+    canvas.dot(c.0.round() as i32, c.1.round() as i32, stroke);
     for y in range(c.1 - r, c.1 + r, canvas.height()).filter(|y| y % every == 0) {
         let half = half_chord(r, f64::from(y) - c.1);
-        bar(canvas, (c.0 - half, c.0 + half), y, ink);
+        bar(canvas, (c.0 - half, c.0 + half), y, stroke);
     }
 }
 
@@ -128,17 +128,17 @@ pub(super) fn hide(canvas: &mut Canvas, c: Dots, r: f64) {
     }
 }
 
-/// The horizontal chord through the centre of the circle of radius `r` dots about `c`.
-pub(super) fn chord(canvas: &mut Canvas, c: Dots, r: f64, ink: Ink) {
+/// Draws the horizontal chord through the centre of the circle of radius `r` dots about `c`.
+pub(super) fn chord(canvas: &mut Canvas, c: Dots, r: f64, stroke: Stroke) {
     if meets(canvas, c, r) {
-        bar(canvas, (c.0 - r, c.0 + r), c.1.round() as i32, ink);
+        bar(canvas, (c.0 - r, c.0 + r), c.1.round() as i32, stroke);
     }
 }
 
-/// The dots of a row whose centres are within `ends`.
-fn bar(canvas: &mut Canvas, ends: (f64, f64), y: i32, ink: Ink) {
+/// Draws the dots of a row whose centres are within `ends`.
+fn bar(canvas: &mut Canvas, ends: (f64, f64), y: i32, stroke: Stroke) {
     for x in range(ends.0, ends.1, canvas.width()) {
-        canvas.dot(x, y, ink);
+        canvas.dot(x, y, stroke);
     }
 }
 
@@ -164,7 +164,7 @@ fn range(from: f64, to: f64, size: i32) -> std::ops::Range<i32> {
     first + i32::from(f64::from(first) < from)..end
 }
 
-/// The whole number nearest to `x`, of two the one farther from 0: as `round`, without a call.
+/// The whole number nearest to `x`, of two the one farther from 0: what `round` gives, without a call.
 fn nearest(x: f64) -> i32 {
     let whole = x as i32;
     let rest = x - f64::from(whole);
@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn every_dot_of_a_circle_is_within_half_a_dot_of_the_true_circle() {
         for (c, r) in circles() {
-            for dot in drawn(|canvas| circle(canvas, c, r, Ink::default())) {
+            for dot in drawn(|canvas| circle(canvas, c, r, Stroke::default())) {
                 // Half a dot, and rounding of the square root.
                 assert!((distance(c, dot) - r).abs() <= 0.5 + 1e-12, "radius {r} about {c:?}: {dot:?}");
             }
@@ -235,7 +235,7 @@ mod tests {
     #[test]
     fn a_circle_has_no_holes() {
         for (c, r) in circles() {
-            let dots = drawn(|canvas| circle(canvas, c, r, Ink::default()));
+            let dots = drawn(|canvas| circle(canvas, c, r, Stroke::default()));
             for dot in &dots {
                 let beside = |other: &&(i32, i32)| (other.0 - dot.0).abs().max((other.1 - dot.1).abs()) == 1;
                 assert!(dots.iter().filter(beside).count() >= 2, "radius {r} about {c:?}: {dot:?} is an end");
@@ -246,11 +246,11 @@ mod tests {
     #[test]
     fn a_disc_holds_the_dots_whose_centres_are_in_it() {
         for (c, r) in circles() {
-            let dots = drawn(|canvas| disc(canvas, c, r, 1, Ink::default()));
+            let dots = drawn(|canvas| disc(canvas, c, r, 1, Stroke::default()));
             let inside = (0..80).flat_map(|y| (0..80).map(move |x| (x, y))).filter(|dot| distance(c, *dot) <= r);
             assert_eq!(dots.len(), inside.count(), "radius {r} about {c:?}");
         }
-        assert_eq!(drawn(|canvas| disc(canvas, (7.4, 7.4), 1e-9, 1, Ink::default())), [(7, 7)]);
+        assert_eq!(drawn(|canvas| disc(canvas, (7.4, 7.4), 1e-9, 1, Stroke::default())), [(7, 7)]);
     }
 
     #[test]
@@ -258,10 +258,10 @@ mod tests {
         let diagonal: Vec<(i32, i32)> = (0..80).map(|i| (i, i)).collect();
         for far in [1e2, 1e5, 1e9] {
             let ends = ((40.0 - far, 40.0 - far), (40.0 + far, 40.0 + far));
-            assert_eq!(drawn(|canvas| line(canvas, ends.0, ends.1, Ink::default())), diagonal, "to {far}");
+            assert_eq!(drawn(|canvas| line(canvas, ends.0, ends.1, Stroke::default())), diagonal, "to {far}");
         }
         let vertical: Vec<(i32, i32)> = (0..80).map(|y| (12, y)).collect();
-        assert_eq!(drawn(|canvas| line(canvas, (12.0, -1e9), (12.0, 1e9), Ink::default())), vertical);
+        assert_eq!(drawn(|canvas| line(canvas, (12.0, -1e9), (12.0, 1e9), Stroke::default())), vertical);
     }
 
     #[test]
@@ -270,14 +270,14 @@ mod tests {
         for (a, b) in
             [(far[0], far[1]), (far[2], far[3]), ((f64::NAN, 0.0), (1.0, 1.0)), ((0.0, f64::INFINITY), (3.0, 3.0))]
         {
-            assert_eq!(drawn(|canvas| line(canvas, a, b, Ink::default())), [], "{a:?} {b:?}");
+            assert_eq!(drawn(|canvas| line(canvas, a, b, Stroke::default())), [], "{a:?} {b:?}");
         }
     }
 
     #[test]
     fn the_rim_of_an_enormous_circle_is_a_straight_line_of_its_own_slope() {
         let r = 1e9;
-        let dots = drawn(|canvas| circle(canvas, (40.0 - r, 40.0), r, Ink::default()));
+        let dots = drawn(|canvas| circle(canvas, (40.0 - r, 40.0), r, Stroke::default()));
         assert_eq!(dots, (0..80).map(|y| (40, y)).collect::<Vec<_>>());
     }
 }

@@ -17,9 +17,9 @@ use super::{
 
 /// The buffer with what every strip of the screen needs to write on it.
 pub(super) struct Sheet<'a> {
-    /// Where it is drawn.
+    /// The buffer that is written to.
     pub(super) buffer: &'a mut Buffer,
-    /// Colours.
+    /// Colours by role.
     pub(super) palette: Palette,
     /// How dots become characters.
     pub(super) marker: Marker,

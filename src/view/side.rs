@@ -3,8 +3,8 @@
 /// The two projections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
-    /// x right, y up.
+    /// The side view: x right, y up.
     Side,
-    /// x right, z down the screen.
+    /// The view from above: x right, z down the screen.
     Top,
 }

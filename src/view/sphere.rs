@@ -7,7 +7,7 @@ use crate::explain;
 use crate::format;
 use crate::snapshot::{Class, Contact, Kind, Logged, Snapshot};
 
-/// With fewer rows the contacts need what momentum, potential energy and forces would take.
+/// Fewest rows with momentum, potential energy and forces: with fewer the contacts need the room.
 const TALL: usize = 30;
 
 /// Support forces that are listed, at most.
@@ -47,7 +47,7 @@ pub(super) fn draw(screen: &Screen, column: &mut Column) {
     column.skip();
 }
 
-/// Position and velocity side by side, in columns as wide as there is room for.
+/// Draws position (m) and velocity (m/s) side by side, in columns as wide as there is room for.
 fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
     let (faint, plain) = (column.sheet().palette.faint(), column.sheet().palette.plain());
     let width = (column.width().saturating_sub(1) / 2).clamp(9, 14);
@@ -59,7 +59,7 @@ fn draw_vectors(x: DVec3, v: DVec3, column: &mut Column) {
     }
 }
 
-/// What pushes the sphere, by source.
+/// Draws the forces on sphere `i` of mass `mass` (kg), by source.
 fn draw_forces(snapshot: &Snapshot, i: usize, mass: f64, column: &mut Column) {
     let stage = &snapshot.stage;
     let mut forces = Vec::new();
@@ -86,7 +86,7 @@ fn draw_forces(snapshot: &Snapshot, i: usize, mass: f64, column: &mut Column) {
     }
 }
 
-/// The support force of a contact on the sphere, N, and of what.
+/// The support force of a contact on sphere `i`, N, and the name of what supports it.
 fn support(snapshot: &Snapshot, contact: &Contact, i: usize) -> Option<(String, DVec3)> {
     let force = explain::support_force(snapshot, contact).filter(|force| *force > 0.0)?;
     match contact.kind {
@@ -97,7 +97,7 @@ fn support(snapshot: &Snapshot, contact: &Contact, i: usize) -> Option<(String, 
     }
 }
 
-/// The last contact up to the frame shown, and the next, as far as they are known.
+/// Draws the last contact of sphere `i` up to the frame shown, and the next, as far as they are known.
 fn draw_meetings(screen: &Screen, i: usize, column: &mut Column) {
     let t = screen.snapshot.t;
     let takes_part = |event: &Logged| event.a as usize == i || event.kind == Kind::Pair && event.b as usize == i;
@@ -120,7 +120,7 @@ fn draw_meetings(screen: &Screen, i: usize, column: &mut Column) {
     }
 }
 
-/// `wall 6 at 0.2213 s, collides`.
+/// A contact in words: `wall 6 at 0.2213 s, collides`.
 fn meeting(class: Class, (kind, other): (Kind, usize), time: f64) -> String {
     let other = if kind == Kind::Wall { format!("wall {other}") } else { format!("#{other}") };
     let word = match class {

@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 
 use super::{
     arrows::Quantity,
-    canvas::{Canvas, Ink, Layer},
+    canvas::{Canvas, Layer, Stroke},
     layout::Pane,
     overlays,
     pane::View,
@@ -26,13 +26,13 @@ const FILLED: f64 = 6.0;
 /// Rows from one line of the hatching to the next, dots: one line a cell.
 const HATCH: i32 = 4;
 
-/// A sphere of at least so many dots' radius hides what is behind it: a smaller one would be a hole.
+/// Least radius, dots, of a sphere that hides what is behind it: a smaller one would be a hole.
 const HIDES: f64 = 1.5;
 
 /// Distance of the selected sphere's second ring from its first, dots.
 const HALO: f64 = 2.0;
 
-/// Draws one view with its label; `sizes`: those of both views, which have one scale.
+/// Draws one view with its label; `sizes` are those of both views, which have one scale.
 pub(super) fn draw(screen: &Screen, pane: &Pane, sizes: Sizes, sheet: &mut Sheet) {
     let (snapshot, settings) = (screen.snapshot, screen.view_settings);
     let followed = settings.selected.filter(|_| settings.follow).and_then(|i| snapshot.x.get(i).copied());
@@ -49,32 +49,32 @@ pub(super) fn draw(screen: &Screen, pane: &Pane, sizes: Sizes, sheet: &mut Sheet
     draw_label(&view, pane.label, sheet);
 }
 
-/// The outline of every wall: four lines, which fall together where the wall is seen edge-on.
+/// Draws the outline of every wall: four lines, which fall together where the wall is seen edge-on.
 fn draw_walls(view: &mut View, sheet: &Sheet) {
     let stage = &view.screen.snapshot.stage;
     for (corners, color) in &stage.walls {
-        let ink = Ink::new(Layer::Wall, sheet.palette.wall(*color));
+        let stroke = Stroke::new(Layer::Wall, sheet.palette.wall(*color));
         let dots = corners.map(|corner| view.project(corner));
         for i in 0..4 {
             let (from, to) = (dots[i], dots[(i + 1) % 4]);
-            shapes::line(&mut view.canvas, from, to, ink);
+            shapes::line(&mut view.canvas, from, to, stroke);
             // a wall that the view cuts goes on there
             for (x, y, side) in shapes::leaves(&view.canvas, from, to) {
-                view.canvas.sign(x, y, sheet.glyphs.on[side], ink);
+                view.canvas.sign(x, y, sheet.glyphs.on[side], stroke);
             }
         }
     }
 }
 
-/// Where the exact run's spheres are: dotted circles under all others, so that only what has strayed shows one.
+/// Draws the exact run's spheres: dotted circles under all others, so that only what has strayed shows one.
 fn draw_ghost(view: &mut View, sheet: &Sheet) {
     let Some(ghost) = view.screen.comparison.and_then(|comparison| comparison.ghost) else { return };
-    let ink = Ink::new(Layer::Ghost, sheet.palette.ghost());
+    let stroke = Stroke::new(Layer::Ghost, sheet.palette.ghost());
     for (x, radius) in ghost.x.iter().zip(&view.screen.snapshot.stage.radii) {
         let (center, r) = (view.project(*x), radius * view.camera.scale);
         match r < TINY {
-            true => shapes::disc(&mut view.canvas, center, r, 1, ink),
-            false => shapes::dotted_circle(&mut view.canvas, center, r, ink),
+            true => shapes::disc(&mut view.canvas, center, r, 1, stroke),
+            false => shapes::dotted_circle(&mut view.canvas, center, r, stroke),
         }
     }
 }
@@ -106,8 +106,8 @@ fn states(snapshot: &Snapshot) -> Vec<State> {
     states
 }
 
-/// Every sphere as a circle in true proportion; its shape tells what it does. A nearer one hides what is behind it; the
-/// selected one is never hidden.
+/// Draws every sphere as a circle in true proportion; its shape tells what it does. A nearer one hides what is behind it;
+/// the selected one is never hidden.
 fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
     let snapshot = view.screen.snapshot;
     let stage = &snapshot.stage;
@@ -129,15 +129,15 @@ fn draw_spheres(view: &mut View, states: &[State], sheet: &Sheet) {
         if r >= HIDES {
             shapes::hide(&mut view.canvas, center, r);
         }
-        draw_sphere(&mut view.canvas, center, r, *state, Ink::new(layer, style));
+        draw_sphere(&mut view.canvas, center, r, *state, Stroke::new(layer, style));
         if selected {
-            let ink = Ink::new(layer, sheet.palette.strong());
-            shapes::circle(&mut view.canvas, center, r.max(TINY) + HALO, ink);
+            let stroke = Stroke::new(layer, sheet.palette.strong());
+            shapes::circle(&mut view.canvas, center, r.max(TINY) + HALO, stroke);
         }
     }
 }
 
-/// The spheres from the farthest to the nearest as seen in this view, the selected one last. One looks from +z, or from above.
+/// The spheres from the farthest to the nearest as seen in this view, from +z or from above, the selected one last.
 fn far_to_near(view: &View) -> Vec<usize> {
     let snapshot = view.screen.snapshot;
     let nearness = |i: usize| match view.side {
@@ -151,30 +151,31 @@ fn far_to_near(view: &View) -> Vec<usize> {
     order.into_iter().map(|(_, _, i)| i).collect()
 }
 
-/// Free: an outline. Resting: with a chord. Colliding: filled. Tiny: a dot or a few, a bar, a cross.
-fn draw_sphere(canvas: &mut Canvas, center: shapes::Dots, r: f64, state: State, ink: Ink) {
+/// Draws a sphere by its state. Free: an outline. Resting: with a chord. Colliding: filled. Tiny: a dot or a few, a bar, a
+/// cross.
+fn draw_sphere(canvas: &mut Canvas, center: shapes::Dots, r: f64, state: State, stroke: Stroke) {
     if r < TINY {
-        shapes::disc(canvas, center, r, 1, ink);
+        shapes::disc(canvas, center, r, 1, stroke);
         match state {
             State::Free => {}
-            State::Rests => shapes::chord(canvas, center, TINY, ink),
+            State::Rests => shapes::chord(canvas, center, TINY, stroke),
             State::Collides => {
-                shapes::chord(canvas, center, TINY, ink);
-                shapes::line(canvas, (center.0, center.1 - 1.0), (center.0, center.1 + 1.0), ink);
+                shapes::chord(canvas, center, TINY, stroke);
+                shapes::line(canvas, (center.0, center.1 - 1.0), (center.0, center.1 + 1.0), stroke);
             }
         }
         return;
     }
-    shapes::circle(canvas, center, r, ink);
+    shapes::circle(canvas, center, r, stroke);
     match state {
         State::Free => {}
-        State::Rests => shapes::chord(canvas, center, r, ink),
-        State::Collides if r <= FILLED => shapes::disc(canvas, center, r, 1, ink),
-        State::Collides => shapes::disc(canvas, center, r, HATCH, ink),
+        State::Rests => shapes::chord(canvas, center, r, stroke),
+        State::Collides if r <= FILLED => shapes::disc(canvas, center, r, 1, stroke),
+        State::Collides => shapes::disc(canvas, center, r, HATCH, stroke),
     }
 }
 
-/// The view's name and axes, zoom, and a bar of a round length that holds for both axes.
+/// Draws the view's name and axes, zoom, and a bar of a round length that holds for both axes.
 fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     let (name, axes) = match view.side {
         Side::Side => ("side", sheet.glyphs.side_axes),
@@ -210,7 +211,7 @@ fn draw_label(view: &View, label: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// "2 m ━━━━━━━╸": the largest round length that is at most a quarter of the width, exact to a dot.
+/// The scale bar, "2 m ━━━━━━━╸": the largest round length that is at most a quarter of the width, exact to a dot.
 fn scale_bar(view: &View, sheet: &Sheet) -> String {
     let meters = format::round_down(view.camera.span(view.area).x * 0.25);
     let dots = (meters * view.camera.scale).round().clamp(0.0, f64::from(view.canvas.width())) as usize;

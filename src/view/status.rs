@@ -1,4 +1,4 @@
-//! The first row: what runs, how far, how fast, solved how; the same as a list on tiny screens; why a run stalled.
+//! The first row: what runs, how far, how fast, solved how; that as a list on tiny screens; why a run stalled.
 
 use ratatui::{layout::Rect, style::Style};
 
@@ -104,7 +104,7 @@ fn put_field(field: &Field, area: Rect, sheet: &mut Sheet) {
     sheet.put_all(area, &[(&field.label, faint), (&field.value, plain), (field.unit, faint)]);
 }
 
-/// The status as a list, for screens too small for a picture.
+/// Draws the status as a list, for screens too small for a picture.
 pub(super) fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     let (word, style) = badge(screen.pace.mode, sheet);
     let (first, mut rest) = split_top(area, 1);
@@ -131,7 +131,7 @@ pub(super) fn draw_numbers(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// What the watch has found wrong, with its time and bodies, as a band over the lowest rows of the body.
+/// Draws what the watch has found wrong, with its time and bodies, as a band over the lowest rows of the body.
 pub(super) fn draw_alarm(screen: &Screen, body: Rect, sheet: &mut Sheet) {
     let style = sheet.palette.alarm().patch(sheet.palette.reverse());
     let sentences = screen.snapshot.alarm.sentences();
@@ -148,7 +148,7 @@ pub(super) fn draw_alarm(screen: &Screen, body: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// A stalled run's reason, as a band over the upper rows of the body, as high as it needs.
+/// Draws a stalled run's reason, as a band over the upper rows of the body, as high as it needs.
 pub(super) fn draw_stall(screen: &Screen, body: Rect, sheet: &mut Sheet) {
     let Some(reason) = &screen.snapshot.stall else { return };
     let style = sheet.palette.alarm().patch(sheet.palette.reverse());

@@ -19,8 +19,8 @@ pub(super) fn draw(screen: &Screen, area: Rect, sheet: &mut Sheet) {
     draw_track(screen, end, track, sheet);
 }
 
-/// The track's end; then how many impacts there were, or which frame of how many is shown; then from when on frames are
-/// kept, if not from the start. Each where there is room.
+/// The text behind the track: its end; then how many impacts there were, or which frame of how many is shown; then from
+/// when on frames are kept, if not from the start. Each where there is room.
 fn right(screen: &Screen, end: f64, columns: u16) -> String {
     let (tallies, kept) = (&screen.snapshot.tallies, &screen.kept);
     let mut right = format!(" {} s ", format::setting(end));
@@ -36,7 +36,7 @@ fn right(screen: &Screen, end: f64, columns: u16) -> String {
     right
 }
 
-/// Before the track.
+/// The text before the track.
 const BEGIN: &str = " 0 ";
 
 /// What the timeline is made of.
@@ -44,7 +44,7 @@ struct Parts {
     /// The time at the track's end, s.
     end: f64,
     track: Rect,
-    /// What stands behind the track, and where.
+    /// The text behind the track.
     right: String,
     right_area: Rect,
 }
@@ -104,7 +104,7 @@ fn draw_track(screen: &Screen, end: f64, track: Rect, sheet: &mut Sheet) {
     }
 }
 
-/// The column of a time.
+/// The column of a time `t` on a track that ends at `end`, s.
 fn column(t: f64, end: f64, width: u16) -> u16 {
     ((t / end * f64::from(width)).floor().max(0.0) as u16).min(width - 1)
 }

@@ -16,15 +16,15 @@ const HEAD: u16 = 29;
 /// Columns for the range of a sparkline.
 const RANGE: u16 = 16;
 
-/// Fewer columns make no sparkline.
+/// Fewest columns of a sparkline.
 const NARROW: u16 = 8;
 
 /// How a sparkline maps values to heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scale {
-    /// By decades: errors.
+    /// Heights by decades, for errors.
     Log,
-    /// From 0: costs.
+    /// Heights from 0 on, for costs.
     Linear,
 }
 
@@ -54,7 +54,7 @@ pub(super) fn draw(screen: &Screen, comparison: &Comparison, area: Rect, sheet: 
     }
 }
 
-/// Where the exact run is, and how far off the selected sphere is, or the worst.
+/// Draws where the exact run is, and how far off the selected sphere is, or the worst.
 fn draw_heading(screen: &Screen, comparison: &Comparison, row: Rect, sheet: &mut Sheet) {
     let (heading, plain, faint) = (sheet.palette.heading(), sheet.palette.plain(), sheet.palette.faint());
     let Some(ghost) = comparison.ghost else {
@@ -94,7 +94,7 @@ fn offset(screen: &Screen, ghost: &Ghost) -> String {
     }
 }
 
-/// In the error's place: positions mean nothing any more.
+/// Draws, in the error's place, that positions mean nothing any more from `horizon` (s) on.
 fn draw_past(horizon: f64, row: Rect, sheet: &mut Sheet) {
     let text = format!("past this scene's horizon of {} s: positions mean nothing", format::setting(horizon));
     sheet.put_all(row, &[(" error    ", sheet.palette.faint()), (&text, sheet.palette.notice())]);
@@ -131,7 +131,7 @@ fn draw_quantity((name, unit, trend, scale): &Row, row: Rect, sheet: &mut Sheet)
     }
 }
 
-/// The largest value in each of so many columns; NaN where none is known.
+/// The largest value in each of `width` columns; NaN where none is known.
 fn columns(trend: &Trend, width: u16) -> impl Iterator<Item = f64> {
     let (bins, width) = (trend.values.len(), usize::from(width));
     (0..width).map(move |x| {

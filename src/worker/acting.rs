@@ -8,7 +8,7 @@ use crate::{
 /// The impacts of a frame whose impulses act over the next one.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Acting {
-    /// The frame at whose end they were.
+    /// The frame at whose end the impacts were.
     frame: u64,
     impacts: Vec<Contact>,
 }
@@ -29,7 +29,7 @@ impl Acting {
         size_of_val(&*self.impacts)
     }
 
-    /// Those whose impulses have acted over the frame at whose end the run is.
+    /// The impacts whose impulses have acted over the frame at whose end the run is.
     pub(super) fn over(&self, run: &Simulation) -> &[Contact] {
         if self.frame + 1 == run.tallies().frames { &self.impacts } else { &[] }
     }

@@ -20,7 +20,7 @@ const FRAMES: usize = 200;
 /// Frames that are looked ahead, at most.
 const AHEAD: usize = 2000;
 
-/// Of more spheres nothing is looked ahead: a copy of the run would be noticed.
+/// Most spheres of a run that is looked ahead in: a copy of a larger one would be noticed.
 const MOST: usize = 20_000;
 
 /// How long it is looked ahead before commands are looked at again, s.
@@ -29,27 +29,28 @@ const LOOKING: f64 = 2e-3;
 /// Centres at the end of a frame, m.
 pub type Places = Arc<Vec<DVec3>>;
 
-/// A frame and by what it is gone on from it.
+/// A frame, and the settings by which the run goes on from it.
 type Here = (u64, Settings);
 
 /// What is kept and looked for around the frame shown.
 #[derive(Debug, Default)]
 pub(super) struct Around {
-    /// Whether trails are kept, and the sphere of which it is asked what comes next.
+    /// Whether trails are kept.
     path: bool,
+    /// The sphere whose next contact is looked for.
     sphere: Option<usize>,
     trail: VecDeque<(u64, Places)>,
-    search: Option<Box<Search>>,
+    search: Option<Box<LookAhead>>,
     found: Option<(Here, Arc<Ahead>)>,
 }
 
 /// A look ahead under way.
 #[derive(Debug)]
-struct Search {
+struct LookAhead {
     from: Here,
     run: Simulation,
     ahead: Ahead,
-    /// How far is looked, s.
+    /// Time up to which is looked ahead, s.
     until: f64,
 }
 
@@ -108,7 +109,7 @@ impl Around {
         Some(Arc::clone(&found.1)).filter(|ahead| Some(ahead.sphere) == self.sphere)
     }
 
-    /// With nothing else to do: looks ahead for a while; whether there is more to do. `clock` tells the time, s.
+    /// Looks ahead for a while, with nothing else to do; whether there is more to do. `clock` tells the time, s.
     pub(super) fn look(&mut self, course: &Course, work: u64, clock: impl Fn() -> f64) -> bool {
         let Some(sphere) = self.sphere.filter(|sphere| *sphere < course.simulation().model().len().min(MOST)) else {
             return false;
@@ -119,7 +120,7 @@ impl Around {
         let from = here(course);
         let search = match self.search.take().filter(|search| search.from == from && search.ahead.sphere == sphere) {
             Some(search) => search,
-            None => Box::new(Search::begin(course, sphere)),
+            None => Box::new(LookAhead::begin(course, sphere)),
         };
         let search = self.search.insert(search);
         let start = clock();
@@ -133,15 +134,15 @@ impl Around {
     }
 }
 
-impl Search {
-    fn begin(course: &Course, sphere: usize) -> Search {
+impl LookAhead {
+    fn begin(course: &Course, sphere: usize) -> LookAhead {
         let mut run = course.simulation().keyframe().run();
         run.record_events(true);
         run.explain(false);
         let t = run.time();
         let path = run.state().x.get(sphere).copied().into_iter().collect();
         let until = t + course.job().stage.duration;
-        Search { from: here(course), run, ahead: Ahead { sphere, path, contact: None, until: t }, until }
+        LookAhead { from: here(course), run, ahead: Ahead { sphere, path, contact: None, until: t }, until }
     }
 
     /// Goes on for a call; whether there is no more to be seen.

@@ -1,8 +1,8 @@
-//! A run that one can go back in: the simulation, what is kept of its past, and where it had come to.
+//! A run that can be gone back in: the simulation, what is kept of its past, and where it had come to.
 //!
 //! Going back begins with the nearest keyframe before, and does again what was done from there, changes of settings
 //! included, each at its frame: bit for bit what there was. The run as it had come is put aside meanwhile, and taken up
-//! again when one arrives there. Changes wait for the end of the frame under way, so that they can be done again.
+//! again when that frame is reached. Changes wait for the end of the frame under way, so that they can be done again.
 
 mod nearby;
 mod scout;
@@ -31,8 +31,9 @@ const CALL: u64 = 1_000_000;
 /// A change of settings.
 #[derive(Debug, Clone, Copy)]
 struct Change {
-    /// Frames completed then, and the time, s.
+    /// Number of frames completed before the change.
     frame: u64,
+    /// Time of the change, s.
     time: f64,
     /// Whether the next frame had been tried, and could not be.
     stalled: bool,
@@ -64,8 +65,9 @@ pub(super) struct Course {
     changed: usize,
     /// Whether the run can be begun again, with all its changes.
     from_start: bool,
-    /// Its time at its beginning, s, and the impacts there.
+    /// Time at the beginning of the run, s.
     begun: f64,
+    /// Impacts at the beginning of the run.
     first_impacts: u64,
     newest: Option<Box<Newest>>,
     /// The earlier frame that the run is on its way to from a keyframe, and what counts the work since that or the one kept
@@ -76,10 +78,11 @@ pub(super) struct Course {
     scouted: Option<u64>,
     /// Whether every call ends with a frame.
     frame_by_frame: bool,
-    /// The recording under way, and the one that is followed.
+    /// The recording under way.
     tape: Option<Tape>,
+    /// The recording that is followed.
     script: Option<Script>,
-    /// What was found of that, and not told yet.
+    /// What was found of the recording that is followed, and not told yet.
     found: Option<Found>,
     /// What has happened again and was not told yet.
     passed: Vec<Contact>,
@@ -138,12 +141,12 @@ impl Course {
         std::mem::take(&mut self.passed)
     }
 
-    /// Why it cannot go on, if it cannot.
+    /// Why the run cannot go on, if it cannot.
     pub(super) fn stall(&self) -> Option<&Stall> {
         self.stall.as_ref()
     }
 
-    /// What it is, or will be from the next frame on, solved with.
+    /// Settings of the run, or those that it will have from the next frame on.
     pub(super) fn settings(&self) -> Settings {
         self.waiting.unwrap_or(self.simulation.settings())
     }
@@ -190,7 +193,7 @@ impl Course {
         }
     }
 
-    /// What of the run can be gone to.
+    /// Which frames of the run can be gone to.
     pub(super) fn kept(&self) -> Kept {
         let (newest, until) = self.newest();
         let oldest = self.oldest();
@@ -198,7 +201,7 @@ impl Course {
         Kept { oldest, from, newest, until, is_past: self.is_past() }
     }
 
-    /// From here on, or from the end of the frame in progress, other settings; whether they wait for that. The run is
+    /// Sets other settings from here on, or from the end of the frame in progress; whether they wait for that. The run is
     /// at its newest frame. It follows no recording any more.
     pub(super) fn set(&mut self, settings: Settings) -> bool {
         self.script = None;
@@ -263,7 +266,7 @@ impl Course {
         }
     }
 
-    /// One call of [`Simulation::advance`].
+    /// Calls [`Simulation::advance`] once.
     fn advance_a_leg(&mut self, until: Until, work: u64) -> Progress {
         self.make_due(false);
         self.leave_script();
@@ -309,7 +312,7 @@ impl Course {
         self.frame_by_frame || self.waiting.is_some() || self.tape.is_some() || follows()
     }
 
-    /// What acts over the next frame, if none is in progress.
+    /// Notes what acts over the next frame, if none is in progress.
     fn note_acting(&mut self) {
         if self.whole {
             self.acting.note(&self.simulation);
@@ -412,7 +415,7 @@ impl Course {
         }
     }
 
-    /// Sets out for the first frame with so many impacts; false if it was before all that is kept.
+    /// Sets out for the first frame with `impacts` impacts; false if it was before all that is kept.
     pub(super) fn set_out_for_impact(&mut self, impacts: u64) -> bool {
         let (oldest, _, least) = self.oldest();
         if impacts <= least {
@@ -423,7 +426,7 @@ impl Course {
         true
     }
 
-    /// Shows an earlier run, of which so many changes have been made.
+    /// Shows an earlier run, of which `changes` changes have been made.
     fn put_aside(&mut self, run: Simulation, changes: usize, acting: Acting) {
         let before = std::mem::replace(&mut self.simulation, run);
         let (stall, whole) = (self.stall.take(), std::mem::replace(&mut self.whole, true));
@@ -435,7 +438,7 @@ impl Course {
         self.catch_up();
     }
 
-    /// Lets the run go on from here: later frames are dropped; how many.
+    /// Lets the run go on from here: later frames are dropped; the number of them.
     pub(super) fn branch(&mut self) -> u64 {
         let Some(newest) = self.newest.take() else { return 0 };
         self.keyframes.cut(&self.simulation);

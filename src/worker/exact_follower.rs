@@ -1,7 +1,7 @@
 //! The exact run beside a run: a second thread that follows the first one's snapshots and says how far they are off.
 //!
-//! It never slows the run down: snapshots are handed over, not asked for; a snapshot that comes while the exact run is
-//! still on its way to an earlier one replaces the one waiting; and the thread is the last to get a processor.
+//! The exact run never slows the run down: snapshots are handed over, not asked for; a snapshot that comes while the exact
+//! run is still on its way to an earlier one replaces the one waiting; and the thread is the last to get a processor.
 //!
 //! Nor does it grow: three snapshots are held (in the mailbox, next, under way), a fourth for the moment in which one gives
 //! way to another; and of two exact runs the later begins only when the earlier has ended, however often it is asked for.
@@ -128,7 +128,7 @@ impl Follower {
         Some(())
     }
 
-    /// With nothing to compare: looks for the horizon up to where the run is, then waits for a snapshot.
+    /// Looks, with nothing to compare, for the horizon up to where the run is, then waits for a snapshot.
     fn look_ahead(&mut self, slot: &Slot<Option<Ghost>>) -> Option<()> {
         let Some(ghost) = self.ghost.as_mut().filter(|ghost| self.growth.is_behind(ghost.t)) else {
             self.next = Some(self.inbox.wait().ok()?);

@@ -3,7 +3,7 @@
 use super::{course::Course, stop::Search};
 use crate::physics::Until;
 
-/// Frames on the way to an earlier place are not shown; where the run goes on, they are.
+/// Where a run goes. Frames on the way to an earlier place are not shown; where the run goes on, they are.
 #[derive(Debug)]
 pub(super) enum Goal {
     Nowhere,
@@ -42,9 +42,9 @@ pub(super) struct Back {
 pub(super) enum Way {
     /// More frames.
     On,
-    /// Nothing: it is there.
+    /// Nothing: the run has reached its goal.
     There,
-    /// It is back where it was: there is no impact before.
+    /// Nothing: there is no impact before, and the run is back where it was.
     InVain,
 }
 
@@ -64,7 +64,7 @@ impl Goal {
 }
 
 impl Back {
-    /// Sets out from the frame that is shown; none if there is none before it.
+    /// Sets out from the frame that is shown; none if no frame is before it.
     pub(super) fn begin(course: &mut Course) -> Option<Back> {
         let from = course.frame();
         if from <= course.oldest().0 {

@@ -30,7 +30,7 @@ impl Runner {
         waits
     }
 
-    /// Where the run is there, begins with what comes next.
+    /// Begins with the command that comes next, where the run has reached its goal.
     pub(super) fn take_turns(&mut self) {
         while self.goal.is_nowhere()
             && let Some(command) = self.queue.pop_front()
@@ -44,13 +44,13 @@ impl Runner {
         }
     }
 
-    /// So many frames on; of a run that was gone back in, up to the newest.
+    /// Goes on by `frames`; in a run that was gone back in, up to the newest.
     pub(super) fn on(&mut self, frames: u64) {
         let newest = if self.course.is_past() { self.course.newest().0 } else { u64::MAX };
         self.go_to_frame(self.frame_ahead().saturating_add(frames).min(newest));
     }
 
-    /// Back to the frame with the impact before.
+    /// Goes back to the frame with the impact before.
     pub(super) fn back_to_impact(&mut self) {
         match Back::begin(&mut self.course) {
             Some(mut back) => {
@@ -82,14 +82,14 @@ impl Runner {
         }
     }
 
-    /// To the end of a frame, back or on.
+    /// Goes to the end of a frame, back or on.
     pub(super) fn go_to_frame(&mut self, frame: u64) {
         self.course.set_out(frame);
         self.head_for(Goal::Frame(frame));
         self.arrive();
     }
 
-    /// To the first frame that ends at or after `t`, s; a time before all that is kept is reached from the start.
+    /// Goes to the first frame that ends at or after `t`, s; a time before all that is kept is reached from the start.
     pub(super) fn go_to_time(&mut self, t: f64) {
         let (oldest, from, _) = self.course.oldest();
         if t < from && oldest > 0 {
@@ -112,7 +112,7 @@ impl Runner {
         }
     }
 
-    /// To the frame of an event in the list.
+    /// Goes to the frame of an event in the list.
     pub(super) fn go_to_event(&mut self, number: u64, time: f64) {
         let (oldest, t, _) = self.course.oldest();
         if time < t && oldest > 0 {
@@ -123,7 +123,7 @@ impl Runner {
         self.arrive();
     }
 
-    /// A frame, or the time asked for, is complete: is that where the run was going?
+    /// Looks whether the run has reached its goal, once a frame, or the time asked for, is complete.
     pub(super) fn arrive(&mut self) {
         let course = &mut self.course;
         let frame = course.frame();
@@ -148,7 +148,7 @@ impl Runner {
         }
     }
 
-    /// What comes next on the way back to an impact.
+    /// Does what comes next on the way back to an impact.
     pub(super) fn follow(&mut self, way: Way) {
         match (way, &self.goal) {
             (Way::There, _) => self.stop_here(),
@@ -166,7 +166,8 @@ impl Runner {
         (self.moved, self.scouting) = (true, true);
     }
 
-    /// Whether what was waited for has come, or the scene's duration is over without it: then back to where it began.
+    /// Looks whether what was waited for has come, or the scene's duration is over without it: then the run goes back to
+    /// where it began.
     fn look_for_stop(&mut self) {
         let Goal::Until(search) = &mut self.goal else { return };
         let run = self.course.simulation();

@@ -11,12 +11,12 @@ use crate::{
 /// A scene to simulate.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// What its snapshots show as constant.
+    /// What the scene's snapshots show as constant.
     pub stage: Arc<Stage>,
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What to solve it with.
+    /// Settings to begin with.
     pub settings: Settings,
-    /// The recording that the run follows, if it is one.
+    /// The recording that the run follows, if there is one.
     pub recording: Option<Arc<Recording>>,
 }

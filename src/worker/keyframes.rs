@@ -1,6 +1,6 @@
 //! Moments of a run that are kept, so that any frame is a short replay away: bounded memory, the oldest thinned first.
 //!
-//! Where they lie follows from counted work, so that they are the same on every machine and however busy it is.
+//! Where they lie follows from counted work, so that they are equal on every machine, however busy.
 
 use super::{acting::Acting, replay_cost::Meter};
 use crate::{
@@ -17,40 +17,41 @@ pub(super) const BUDGET: usize = HISTORY - EventLog::MOST_BYTES;
 /// Memory that a single keyframe may take, bytes: of a run that needs more none is kept.
 const LARGEST: usize = HISTORY / 4;
 
-/// Work from one keyframe to the next, at least: a replay that is not noticed. Work is counted, in ns.
+/// Least work from one keyframe to the next, in counted ns: a replay that is not noticed.
 pub(super) const SPACING: u64 = 1_000_000;
 
-/// Work from one keyframe to the next for each byte of it: a copy takes a few hundredths of that.
+/// Work from one keyframe to the next for each byte of it, in counted ns: a copy takes a few hundredths of that.
 const SPACING_OF_A_BYTE: u64 = 6;
 
-/// Work between two at most, until they are thinned: one frame back is on the screen at once, whatever a copy costs.
+/// Most work between two keyframes, ns, until they are thinned: one frame back is on the screen at once, whatever a copy
+/// costs.
 pub(super) const CLOSE: u64 = 3_000_000;
 
-/// Work between two at most, after thinning: what a replay may take.
+/// Most work between two keyframes after thinning, ns: what a replay may take.
 pub(super) const FARTHEST: u64 = 50_000_000;
 
-/// The last frames, which one goes back to most: their keyframes are not thinned as long as others are left.
+/// Last frames, which are gone back to most: their keyframes are not thinned as long as others are left.
 pub(super) const RECENT: u64 = 100;
 
 /// A keyframe and where it belongs.
 #[derive(Debug)]
 pub(super) struct Kept {
-    /// Frames completed then.
+    /// Number of frames completed at the keyframe.
     pub(super) frame: u64,
-    /// Time then, s.
+    /// Time of the keyframe, s.
     pub(super) time: f64,
-    /// Impacts until then.
+    /// Impacts up to the keyframe.
     pub(super) impacts: u64,
-    /// Recorded changes that it includes.
+    /// Number of recorded changes that the keyframe includes.
     pub(super) changes: usize,
-    /// Whether the frame that ended then is shown with its inside, which a keyframe does not hold.
+    /// Whether the frame that ended at the keyframe is shown with its inside, which a keyframe does not hold.
     has_inside: bool,
     /// Work from the keyframe before, ns.
     gap: u64,
     keyframe: Keyframe,
-    /// What acts over the frame that ended then.
+    /// What acts over the frame that ended at the keyframe.
     pub(super) acting: Acting,
-    /// Memory that it takes, bytes.
+    /// Memory that the keyframe takes, bytes.
     bytes: usize,
 }
 
@@ -80,18 +81,19 @@ impl Kept {
 #[derive(Debug)]
 pub(super) struct Keyframes {
     list: Vec<Kept>,
-    /// What they take, and what they may take, bytes.
+    /// Memory that the keyframes take, bytes.
     bytes: usize,
+    /// Memory that the keyframes may take, bytes.
     room: usize,
     /// Counts the work of the run.
     meter: Meter,
-    /// Work since the last one, ns, up to the last look.
+    /// Work since the last keyframe, ns, up to the last look.
     since: u64,
     /// Frames completed at the last look.
     looked: u64,
-    /// Work after which the next one is kept, ns.
+    /// Work after which the next keyframe is kept, ns.
     spacing: u64,
-    /// How far the list has been thinned: work between two, ns.
+    /// Work between two keyframes to which the list has been thinned, ns.
     thinned: u64,
     /// The first frame after the last one that was dropped, and its time, s; none as long as all are a short way off.
     front: Option<(u64, f64)>,
@@ -100,14 +102,14 @@ pub(super) struct Keyframes {
 }
 
 impl Keyframes {
-    /// Those of a run that is between two frames: this one, if it is not too large.
+    /// The keyframes of a run that is between two frames: the present one, if it is not too large.
     pub(super) fn of(run: &Simulation) -> Keyframes {
         let mut keyframes = Keyframes::none(run);
         keyframes.keep(run, (0, &Acting::default()));
         keyframes
     }
 
-    /// None yet: the first frame that ends from here on is kept.
+    /// No keyframes yet: the first frame that ends from here on is kept.
     pub(super) fn none(run: &Simulation) -> Keyframes {
         Keyframes {
             list: Vec::new(),
@@ -123,7 +125,7 @@ impl Keyframes {
         }
     }
 
-    /// The first of all.
+    /// The first keyframe.
     pub(super) fn first(&self) -> Option<&Kept> {
         self.list.first()
     }
@@ -145,7 +147,7 @@ impl Keyframes {
         self.front
     }
 
-    /// The run is between two frames, its newest: keeps it if it is time to, with the number of recorded changes it
+    /// Keeps a run that is between two frames, its newest, if it is time to, with the number of recorded changes it
     /// includes, and what acts over the frame that has ended. Asked at every frame; what that has cost, ns of counted work.
     pub(super) fn look(&mut self, run: &Simulation, told: (usize, &Acting)) -> u64 {
         let frame = run.tallies().frames;
@@ -177,7 +179,7 @@ impl Keyframes {
         }
     }
 
-    /// Keeps a run between two frames, its newest, as if it had worked so much more (ns).
+    /// Keeps a run between two frames, its newest, as if it had done this much more `work` (ns).
     #[cfg(test)]
     pub(super) fn keep_now(&mut self, run: &Simulation, told: (usize, &Acting), work: u64) {
         if self.list.last().is_none_or(|last| last.frame < run.tallies().frames) {
@@ -198,8 +200,8 @@ impl Keyframes {
         self.list.iter().map(|kept| kept.frame).collect()
     }
 
-    /// Keeps a run at its place among the others, so much work (ns) after the one before, unless that frame is kept, or there
-    /// is no room but that of frames that would be lost.
+    /// Keeps a run at its place among the others, so much work (ns) after the one before, unless that frame is kept, or
+    /// there is no room but that of frames that would be lost.
     pub(super) fn insert(&mut self, run: &Simulation, told: (usize, &Acting), work: u64) {
         let frame = run.tallies().frames;
         let is_kept = self.list.binary_search_by_key(&frame, |other| other.frame).is_ok();
@@ -238,7 +240,8 @@ impl Keyframes {
         self.front = self.front.map(|front| if front.0 > frame { (frame, time) } else { front });
     }
 
-    /// Every second one of the oldest goes, as long as what is left is a short way apart; then the oldest go for good.
+    /// Drops every second one of the oldest keyframes, as long as what is left is a short way apart; then the oldest for
+    /// good.
     fn thin(&mut self) {
         if self.thin_out() {
             return;
@@ -258,7 +261,8 @@ impl Keyframes {
         self.front = self.list.get(1).map(|kept| (kept.frame + u64::from(kept.has_inside), kept.time));
     }
 
-    /// Every second one of the oldest goes, as long as what is left is a short way apart; whether there is room then.
+    /// Drops every second one of the oldest keyframes, as long as what is left is a short way apart; whether there is room
+    /// then.
     fn thin_out(&mut self) -> bool {
         let newest = self.list.last().map_or(0, |kept| kept.frame);
         let recent = self.list.partition_point(|kept| kept.frame + RECENT < newest);

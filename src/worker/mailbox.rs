@@ -15,7 +15,7 @@ pub(super) struct Sender<T>(Arc<Shared<T>>);
 /// The reading end.
 pub(super) struct Reader<T>(Arc<Shared<T>>);
 
-/// The sender is gone; a value that it may have left is dropped.
+/// The error of a mailbox whose sender is gone; a value that it may have left is dropped.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Closed;
 

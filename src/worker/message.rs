@@ -25,36 +25,36 @@ pub enum Command {
     /// Run at the speed set, or pause. A run that was gone back in goes on from where it is, and its later frames are
     /// dropped.
     Run(bool),
-    /// Complete so many more frames, then pause; of a run that was gone back in, up to the newest. Frames asked for
-    /// while some are under way add up; while something is searched for, they come after that.
+    /// Complete this many more frames, then pause; in a run that was gone back in, up to the newest. Frames asked for while
+    /// some are under way add up; while something is searched for, they come after that.
     Forward(u64),
-    /// So many frames back, or as many as there are. Frames asked for while some are under way add up; while something
+    /// Go back this many frames, or as many as there are. Frames asked for while some are under way add up; while something
     /// is searched for, they come after that.
     Back(u64),
-    /// Go on, as fast as possible, until this comes; then pause. If it does not come within the scene's duration, the
-    /// run is back where it was. Asked for while the run is on its way somewhere, it begins there.
+    /// Go on, as fast as possible, until this comes to pass; then pause. If it does not within the scene's duration, the
+    /// run is back where it was. Asked for while the run is on its way somewhere, the search begins there.
     Until(Stop),
-    /// Back to the frame with the impact before; asked for while the run is on its way somewhere, from there.
+    /// Go back to the frame with the impact before; asked for while the run is on its way somewhere, from there.
     PreviousImpact,
-    /// Back to the first frame that is kept.
+    /// Go back to the first frame that is kept.
     Oldest,
-    /// On to the newest frame.
+    /// Go on to the newest frame.
     Newest,
-    /// To the first frame that ends at or after this time, s, back or, as fast as possible, on; then pause.
+    /// Go to the first frame that ends at or after this time, s, back or, as fast as possible, on; then pause.
     Goto(f64),
-    /// To the frame in which the event of this number, from 1, at this time, s, has happened; then pause.
+    /// Go to the frame in which the event of this number, from 1, at this time, s, has happened; then pause.
     GotoEvent {
-        /// Its number since t = 0.
+        /// Number of the event since t = 0, from 1.
         number: u64,
-        /// Its time, s.
+        /// Time of the event, s.
         time: f64,
     },
-    /// Keep where all spheres were in the last frames, or not; and look ahead, with nothing else to do, for the next contact
-    /// of a sphere.
+    /// Keep where all spheres were in the last frames, or not; and look ahead, with nothing else to do, for the next
+    /// contact of a sphere.
     Around {
         /// Whether to keep where the spheres were.
         path: bool,
-        /// The sphere.
+        /// The sphere whose next contact is looked for; none for no look ahead.
         sphere: Option<usize>,
     },
     /// Hand over the run at the end of its last frame, once none is in progress.
@@ -63,9 +63,9 @@ pub enum Command {
     Record,
     /// End the recording under way, and hand it over; nothing, if there is none.
     EndRecording(Sender<Option<Taped>>),
-    /// Back to t = 0 with the settings in force; running goes on running.
+    /// Go back to t = 0 with the settings in force; a run that runs goes on running.
     Restart,
-    /// Run at so many simulated seconds per second, > 0.
+    /// Run at this many simulated seconds per second, > 0.
     Speed(f64),
     /// Solve with these settings from the next frame on; later frames than the one shown are dropped.
     Settings(Settings),
@@ -78,11 +78,11 @@ pub enum Command {
 /// A run that is taken away.
 #[derive(Debug, Clone)]
 pub struct TakenAway {
-    /// The scene from which it goes on; none if a number of it is not finite.
+    /// The scene from which the run goes on; none if a number of it is not finite.
     pub scene: Option<Scene>,
-    /// Whether it goes on bit for bit, or to rounding only.
+    /// Whether the run goes on bit for bit, or to rounding only.
     pub to_the_bit: bool,
-    /// What there is to draw.
+    /// The snapshot to draw.
     pub snapshot: Arc<Snapshot>,
 }
 
@@ -114,11 +114,11 @@ pub struct Report {
     pub reached: Option<f64>,
     /// Commands obeyed so far.
     pub obeyed: u64,
-    /// What it is, or will be from the next frame on, solved with.
+    /// Settings of the run, or those that it will have from the next frame on.
     pub settings: Settings,
     /// Frames of the recording under way.
     pub recorded: Option<u64>,
-    /// Which frames one can go to.
+    /// Which frames can be gone to.
     pub kept: Kept,
     /// Where all spheres were in the last frames, the one shown included, the newest last, m, if that was asked for.
     pub trail: Vec<Places>,
@@ -141,16 +141,16 @@ pub enum Said {
         stop: Stop,
         /// What came.
         met: Met,
-        /// When, s.
+        /// Time of the frame in which it came, s.
         t: f64,
     },
-    /// It has not come; the run is back where it was.
+    /// What was waited for has not come; the run is back where it was.
     Nothing {
         /// What was waited for.
         stop: Stop,
-        /// Since when, s.
+        /// Time from which on it was waited for, s.
         from: f64,
-        /// For how long, s.
+        /// How long it was waited for, s.
         within: f64,
     },
     /// A time to be waited for, s, is past.
@@ -160,25 +160,25 @@ pub enum Said {
     },
     /// The run goes on from an earlier frame, and the later ones are dropped.
     Dropped {
-        /// How many.
+        /// Number of frames dropped.
         frames: u64,
-        /// From when on, s.
+        /// Time from which on the frames are dropped, s.
         t: f64,
     },
-    /// There is no frame before: this is the start.
+    /// No frame is before this one: it is the start.
     Start,
     /// No frame before this one is kept.
     Oldest {
-        /// Its time, s.
+        /// Time of this frame, s.
         t: f64,
     },
-    /// There is no later frame: this is the newest.
+    /// No later frame is there: this one is the newest.
     Newest,
     /// There is no earlier impact.
     NoEarlierImpact,
     /// A recording begins here.
     Recording {
-        /// When, s.
+        /// Time at which the recording begins, s.
         t: f64,
     },
     /// No recording begins here: the run could not go on from here bit for bit.
@@ -189,21 +189,21 @@ pub enum Said {
     RecordingLost,
     /// The recording under way takes no more frames.
     RecordingFull {
-        /// How many it has.
+        /// Number of frames that the recording has.
         frames: u64,
     },
     /// The run is not as the recording that it follows.
     Differs {
         /// The first frame that differs.
         frame: u64,
-        /// Its time, s.
+        /// Time of that frame, s.
         t: f64,
-        /// What differs in it.
+        /// What differs in the frame.
         suspect: Suspect,
     },
     /// The recording that the run follows is over.
     RecordingEnds {
-        /// With this frame.
+        /// Last frame of the recording.
         frame: u64,
         /// Whether all of it was as recorded.
         same: bool,
@@ -215,7 +215,7 @@ pub enum Said {
     },
     /// On the way to a far time frames were too many to be counted: none before this one is kept.
     Anew {
-        /// Its time, s.
+        /// Time of this frame, s.
         t: f64,
     },
 }

@@ -1,4 +1,5 @@
-//! Where simulated time should be by now, how fast it really goes. Wall time comes in as seconds, so that tests need no clock.
+//! Where simulated time should be by now, how fast it really goes. Wall time comes in as seconds, so that tests need no
+//! clock.
 
 /// A run that is further behind than this, s of wall time, gives the lost time up instead of chasing it.
 const PATIENCE: f64 = 0.1;
@@ -23,7 +24,7 @@ struct Mark {
 }
 
 impl Pace {
-    /// `wanted` simulated seconds per second from now on.
+    /// A pace of `wanted` simulated seconds per second from now on.
     pub(super) fn new(wanted: f64, wall: f64, simulated: f64) -> Pace {
         let mark = Mark { wall, simulated };
         Pace { wanted, origin: mark, window: mark, reached: None }

@@ -1,4 +1,4 @@
-//! What it costs to do frames again, counted: the same on every machine and however busy it is, unlike time.
+//! What it costs to do frames again, counted: unlike time, it is equal on every machine, however busy.
 
 use crate::{
     physics::{Simulation, Tallies},
@@ -8,17 +8,17 @@ use crate::{
 /// What one of each costs by a method, in nanoseconds on some machine (an Intel Xeon of 2026, over all shipped scenes and
 /// a gas of 10⁴ spheres, frame by frame). Only ratios matter; they hold to a factor of three.
 struct Prices {
-    /// A frame, what is looked at between two of them included.
+    /// Cost of a frame, what is looked at between two of them included.
     frame: u64,
-    /// A gap computed.
+    /// Cost of a gap computed.
     gap: u64,
-    /// An impact, the begin of a rest, or its end.
+    /// Cost of an impact, the begin of a rest, or its end.
     event: u64,
-    /// A row solved by `moreau`.
+    /// Cost of a row solved by `moreau`.
     turn: u64,
-    /// A contact that a frame lists.
+    /// Cost of a contact that a frame lists.
     row: u64,
-    /// An event, times a contact that the frame lists: what rests is settled anew.
+    /// Cost of an event for each contact that the frame lists: what rests is settled anew.
     settling: u64,
 }
 

@@ -53,10 +53,10 @@ pub(super) struct Runner {
     pub(super) ticks: Ticks,
     pub(super) log: EventLog,
     pub(super) goal: Goal,
-    /// What begins when the goal is reached, in turn.
+    /// Commands that begin when the goal is reached, in turn.
     pub(super) queue: VecDeque<Command>,
     around: Around,
-    /// Who waits for the run at the end of the frame in progress.
+    /// Where the run is sent at the end of the frame in progress.
     takers: Vec<Sender<TakenAway>>,
     /// Whether a recording begins at the end of the frame in progress.
     pub(super) wants_tape: bool,
@@ -69,7 +69,7 @@ pub(super) struct Runner {
     pub(super) obeyed: u64,
     /// What there was to say last, and how many things before.
     pub(super) said: Option<(u64, Said)>,
-    /// Whether the simulation has moved since `snapshot`.
+    /// Whether the simulation has moved since `snapshot` was taken.
     pub(super) moved: bool,
     /// Whether anything has changed since the last report.
     pub(super) unreported: bool,
@@ -136,7 +136,7 @@ impl Runner {
         }
     }
 
-    /// With nothing else to do.
+    /// Does what is worth doing while the run waits: keyframes near by, and a look ahead.
     fn scout(&mut self) {
         let (work, clock) = (self.slices.work(), || self.clock.elapsed().as_secs_f64());
         let before = self.around.ahead(&self.course).is_some();
@@ -240,7 +240,7 @@ impl Runner {
         self.course.time()
     }
 
-    /// On and on, from the frame shown.
+    /// Sets the run going from the frame shown, on and on.
     fn run_on(&mut self) {
         self.branch();
         self.head_for(Goal::On);
@@ -280,7 +280,7 @@ impl Runner {
         }
     }
 
-    /// Drops the frames after the one shown, with what they have told; how many they were.
+    /// Drops the frames after the one shown, with what they have told; the number of frames dropped.
     pub(super) fn cut(&mut self) -> u64 {
         if !self.course.is_past() {
             return 0;
@@ -371,7 +371,7 @@ impl Runner {
         self.pace.measure(now, time);
     }
 
-    /// One call into the run, and what follows from it.
+    /// Calls into the run once, and does what follows from it.
     fn advance(&mut self, until: Until) {
         let before = self.now();
         let progress = self.course.advance(until, self.slices.work());
@@ -448,7 +448,7 @@ impl Runner {
     }
 }
 
-/// What either tells; of the same kind the earlier.
+/// What either alarm tells; of one kind the earlier.
 fn both(before: &Alarm, after: &Alarm) -> Alarm {
     Alarm {
         overlap: before.overlap.or(after.overlap),
@@ -457,7 +457,7 @@ fn both(before: &Alarm, after: &Alarm) -> Alarm {
     }
 }
 
-/// What was wrong already at `t`, s.
+/// The part of an alarm that was there already at `t`, s.
 fn until(alarm: Alarm, t: f64) -> Alarm {
     let energy = alarm.energy.filter(|it| it.time <= t);
     Alarm { overlap: alarm.overlap.filter(|it| it.time <= t), energy, cause: alarm.cause.filter(|_| energy.is_some()) }

@@ -11,7 +11,7 @@ use crate::{
 /// What a run goes on until, as fast as possible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stop {
-    /// These bodies do this: an impact, the beginning of a rest, or its end.
+    /// An event of these bodies: an impact, the beginning of a rest, or its end.
     Event(Class, Bodies),
     /// A sphere's centre leaves the box around all walls; without walls, the scene's view.
     Exit,
@@ -25,21 +25,21 @@ pub enum Stop {
     Energy(f64),
 }
 
-/// Which bodies.
+/// The bodies of an event that is waited for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bodies {
-    /// Any.
+    /// Any bodies.
     Any,
-    /// This sphere, with whatever.
+    /// One sphere, with any other body.
     Sphere(usize),
-    /// This sphere with this wall.
+    /// A sphere and a wall.
     Wall(usize, usize),
-    /// These two spheres.
+    /// Two spheres.
     Pair(usize, usize),
 }
 
 impl Bodies {
-    /// Whether a contact is between these.
+    /// Whether a contact is between these bodies.
     fn are(self, contact: &Contact) -> bool {
         let Contact { kind, a, b, .. } = *contact;
         match self {
@@ -51,20 +51,20 @@ impl Bodies {
     }
 }
 
-/// What came.
+/// What has come to pass of what was waited for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Met {
-    /// This happened.
+    /// An event has happened.
     Event(Contact),
-    /// This sphere has left.
+    /// A sphere has left the box.
     Exit(usize),
-    /// The time.
+    /// The time has come.
     Time,
-    /// This sphere is so fast, m/s.
+    /// A sphere is as fast as this, m/s.
     Speed(usize, f64),
-    /// This contact overlaps.
+    /// A contact overlaps by more than was waited for.
     Degree(Contact),
-    /// The energy is off by this share, or this many J.
+    /// The energy differs by this share of the initial one; by this, J, where that is 0.
     Energy(f64),
 }
 
@@ -74,9 +74,9 @@ pub(super) struct Search {
     pub(super) stop: Stop,
     /// The frame and the time (s) at which it began.
     pub(super) from: (u64, f64),
-    /// After how long it is given up, s.
+    /// Time after which the search is given up, s.
     pub(super) within: f64,
-    /// Whether it began before the newest frame.
+    /// Whether the search began before the newest frame.
     pub(super) in_the_past: bool,
     /// Spheres that were outside in the last frame, if that matters.
     outside: Vec<bool>,
@@ -84,7 +84,7 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// From a run at the end of a frame, given up after the scene's duration, unless a time is waited for.
+    /// A search from a run at the end of a frame, given up after the scene's duration, unless a time is waited for.
     pub(super) fn new(stop: Stop, course: &Course) -> Search {
         let (run, stage) = (course.simulation(), &course.job().stage);
         let (frame, t) = (run.tallies().frames, run.time());
@@ -102,7 +102,8 @@ impl Search {
         run.state().x.iter().map(|x| x.cmplt(min).any() || x.cmpgt(max).any()).collect()
     }
 
-    /// Whether it has come with the frame that has just ended, in which `events` happened.
+    /// What has come to pass with the frame that has just ended, in which `events` happened; none if what is waited for has
+    /// not.
     pub(super) fn met(&mut self, run: &Simulation, events: &[Contact]) -> Option<Met> {
         match self.stop {
             Stop::Event(class, bodies) => {

@@ -16,14 +16,15 @@ const MOST_FRAMES: usize = 4_000_000;
 pub(super) struct Tape {
     scene: Scene,
     settings: Settings,
-    /// The frame at which it begins, and how many changes of the run were before.
+    /// Frame at which the recording begins.
     pub(super) begun: u64,
+    /// Number of changes of the run before the beginning.
     pub(super) changes: usize,
     frames: Vec<Sums>,
 }
 
 impl Tape {
-    /// Begins at the end of a frame, from which `scene` goes on.
+    /// A recording that begins at the end of a frame, from which `scene` goes on.
     pub(super) fn begin(run: &Simulation, scene: Scene, changes: usize) -> Tape {
         let frames = vec![Sums::of(&run.state())];
         Tape { scene, settings: run.settings(), begun: run.tallies().frames, changes, frames }
@@ -41,7 +42,7 @@ impl Tape {
         self.frames.len() > MOST_FRAMES
     }
 
-    /// Frames so far.
+    /// Number of frames so far.
     pub(super) fn frames(&self) -> u64 {
         self.frames.len() as u64 - 1
     }
@@ -53,7 +54,7 @@ impl Tape {
         true
     }
 
-    /// The recording, of a scene that is called so, with these changes of the run since it began.
+    /// The recording of a scene named `key`, with these changes of the run since it began.
     pub(super) fn end(self, key: &str, changes: impl Iterator<Item = Change>) -> Taped {
         let (begun, last) = (self.begun, self.frames());
         let changes = changes.map(|change| Change { frame: change.frame - begun, ..change });
@@ -65,15 +66,15 @@ impl Tape {
 /// A recording that has ended; its scene's text is yet to be written.
 #[derive(Debug, Clone)]
 pub struct Taped {
-    /// What the scene was opened as.
+    /// Name by which the scene was opened.
     pub key: String,
-    /// The scene from which it goes on.
+    /// The scene from which the recorded run goes on.
     pub scene: Scene,
-    /// What it was solved with at first.
+    /// Settings at the beginning.
     pub settings: Settings,
-    /// What was changed on the way.
+    /// Changes of settings on the way.
     pub changes: Vec<Change>,
-    /// The sums of the state at its beginning, then at the end of every frame.
+    /// The sums of the state at the beginning, then at the end of every frame.
     pub frames: Vec<Sums>,
 }
 
@@ -88,9 +89,9 @@ pub(super) struct Script {
 /// What a run has come upon on its way, most of it of the recording that it follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Found {
-    /// This frame is the first that differs.
+    /// The first frame that differs, and what differs in it.
     Differs(u64, Suspect),
-    /// The recording ends with this frame; whether all of it was as recorded.
+    /// The frame with which the recording ends, and whether all of it was as recorded.
     End(u64, bool),
     /// The run goes on beyond this frame, with which the recording has ended.
     Beyond(u64),
@@ -103,7 +104,7 @@ impl Script {
         Script { recording, differs: false }
     }
 
-    /// The change that comes after so many, if it is due where so many frames are complete.
+    /// The change that comes after `changes` others, if it is due where `frame` frames are complete.
     pub(super) fn due(&self, changes: usize, frame: u64, stalled: bool) -> Option<Settings> {
         let change = self.recording.changes.get(changes)?;
         (change.frame <= frame && change.stalled <= stalled).then_some(change.settings)

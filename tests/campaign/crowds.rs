@@ -11,7 +11,7 @@ use crate::support::{scene, sphere};
 
 /// The scene of this seed.
 pub(crate) fn crowd_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0xc2b2_ae3d_27d4_eb4f) ^ 0x7777_1111_9999_4242);
+    let random = &mut Random::new(seed.wrapping_mul(0xc2b2_ae3d_27d4_eb4f) ^ 0x7777_1111_9999_4242);
     let count = 65 + (335.0 * random.unit() * random.unit()) as usize;
     let half = 5.0;
     let (kind, small) = (random.pick(&[0, 1, 2, 3]), random.decade(-5.0, -1.3));

@@ -10,7 +10,7 @@ use crate::support::{G, room, scene, sphere, wall};
 
 /// The scene of this seed.
 pub(crate) fn heap_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0x9fb2_1c65_1e98_df25) ^ 0x3333_7777_0f0f_5a5a);
+    let random = &mut Random::new(seed.wrapping_mul(0x9fb2_1c65_1e98_df25) ^ 0x3333_7777_0f0f_5a5a);
     let count = 12 + (18.0 * random.unit()) as usize;
     let alike = random.unit() < 0.5;
     // bins no wider than three spheres, or one wide box; sometimes as thin as a sphere

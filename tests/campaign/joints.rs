@@ -134,7 +134,7 @@ pub(crate) fn law(random: &mut Random) -> ContactLaw {
 
 /// The scene of this seed.
 pub(crate) fn joint_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x9fb2_1c65_1e98_df25);
+    let random = &mut Random::new(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x9fb2_1c65_1e98_df25);
     let axes = Axes::pick(random);
     let mut walls = match random.pick(&[0, 0, 0, 1, 1, 2, 3]) {
         0 => bend(random, axes),

@@ -13,7 +13,7 @@ use crate::support::{G, scene, sphere, wall};
 
 /// A funnel of 3 to 8 walls that meet at the origin, and spheres above it.
 pub(crate) fn funnel_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0x9e6c_63d0_876a_68ee) ^ 0x1234_5678_9abc_def1);
+    let random = &mut Random::new(seed.wrapping_mul(0x9e6c_63d0_876a_68ee) ^ 0x1234_5678_9abc_def1);
     let count = random.pick(&[3, 4, 4, 5, 6, 7, 8]);
     let regular = random.unit() < 0.6;
     let (steep, turn) = (random.between(0.15, 1.2), random.pick(&[0.0, 1.0]) * random.between(0.0, TAU));
@@ -40,7 +40,7 @@ pub(crate) fn funnel_scene(seed: u64) -> Scene {
 /// Spheres between two parallel walls, or in a tube of four, as wide as they are or nearly so. Where nothing is lost the gap
 /// is 1e-4 r at least, or none: across a narrower one the law itself has up to a billion impacts a second.
 pub(crate) fn tube_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0xd6e8_feb8_6659_fd93) ^ 0x0f0f_1e1e_2d2d_3c3c);
+    let random = &mut Random::new(seed.wrapping_mul(0xd6e8_feb8_6659_fd93) ^ 0x0f0f_1e1e_2d2d_3c3c);
     let axes = Axes::pick(random);
     let r = random.pick(&[0.5, 0.3, 0.1]);
     let play = match random.pick(&[0, 0, 1, 2]) {
@@ -75,7 +75,7 @@ pub(crate) fn tube_scene(seed: u64) -> Scene {
 
 /// A stack, a row or a pyramid of equal spheres that touch, on the seams of a floor.
 pub(crate) fn stack_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0xa076_1d64_78bd_642f) ^ 0x5555_aaaa_3333_cccc);
+    let random = &mut Random::new(seed.wrapping_mul(0xa076_1d64_78bd_642f) ^ 0x5555_aaaa_3333_cccc);
     let r = random.pick(&[0.25, 0.3, 0.5]);
     let width = random.pick(&[2.0 * r, 1.0, 0.7]);
     let tile = |k: i32| wall(dvec3((f64::from(k) + 0.5) * width, 0.0, 0.0), DVec3::X * width, DVec3::Z * 8.0);

@@ -50,7 +50,7 @@ fn obstacles(random: &mut Random) -> Vec<Wall> {
 
 /// The scene of this seed.
 pub(crate) fn room_scene(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ 0x1405_7b7e_f767_814f);
+    let random = &mut Random::new(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ 0x1405_7b7e_f767_814f);
     let mut walls = room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 10.0, 5.0));
     walls.extend(obstacles(random));
     let gravity = match random.pick(&[0, 1, 1, 1, 1, 2]) {

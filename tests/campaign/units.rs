@@ -128,7 +128,7 @@ fn by_slowness(scene: &Scene, event: &Contact) -> f64 {
 
 /// Compares a scene with itself in other units.
 pub(crate) fn check(seed: u64, until: f64, met: &mut Met) -> Result<(), Failure> {
-    let random = &mut Random(seed.wrapping_mul(0xff51_afd7_ed55_8ccd) ^ 0x0101_2323_4545_6767);
+    let random = &mut Random::new(seed.wrapping_mul(0xff51_afd7_ed55_8ccd) ^ 0x0101_2323_4545_6767);
     let scene = base(seed, random);
     let (length, time) = (random.decade(-3.0, 3.0), random.decade(-3.0, 3.0));
     let (plain, end) = events(&scene, 0.5, until, 1.0);

@@ -1,9 +1,9 @@
 //! What rests stays at rest, and what slides follows its closed form, in the methods that know islands.
 
 use crate::random::Random;
-use crate::support::{self, ELASTIC, G, PAPER_LAW, go, pyramid, room, scene, sphere, wall};
+use crate::support::{self, ELASTIC, G, PAPER_LAW, go, pyramid, room, scene, sphere, still, wall};
 use carom::physics::{Class, Contact, Kind, Method, Progress, Scene, Settings, Simulation, Until};
-use carom::scene::{ContactLaw, Sphere, Wall};
+use carom::scene::{ContactLaw, Wall};
 use glam::{DVec3, dvec3};
 
 /// Impacts lose half of the approach speed.
@@ -52,10 +52,6 @@ fn assert_rests(what: &str, scene: &Scene) {
         }
         assert_eq!(run.tallies().impacts, 0, "{what}, {method:?}: resting bodies collided");
     }
-}
-
-fn still(x: DVec3) -> Sphere {
-    sphere(x, DVec3::ZERO, 0.5)
 }
 
 /// A V along z with its crease in the origin, slopes of 3-4-5, 4 m down each side.
@@ -263,7 +259,7 @@ fn two_spheres_dropped_into_a_v_end_up_mirrored_and_still() {
 #[test]
 fn a_free_column_with_a_nanometre_of_noise_topples() {
     // Unstable at a rate of about √(g/2r): 1e-9 m are a metre within some seconds. Ten exact ones stand (see above).
-    let noise = &mut Random(3);
+    let noise = &mut Random::new(3);
     let spheres = (0..10).map(|k| {
         still(dvec3(noise.between(-1e-9, 1e-9), 0.5 + f64::from(k) + 1e-9 * f64::from(k), noise.between(-1e-9, 1e-9)))
     });

@@ -103,7 +103,7 @@ fn path_to(random: &mut Random, target: DVec3, size: f64, horizon: f64) -> Path 
 }
 
 fn check_wall(seed: u64, met: &mut [u32; 4]) -> Result<(), String> {
-    let random = &mut Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+    let random = &mut Random::new(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let size = random.decade(-3.0, 3.0);
     let horizon = random.decade(-2.0, 2.0);
     let center = random.vector() * size * random.decade(-1.0, 2.0);
@@ -148,7 +148,7 @@ fn check_wall(seed: u64, met: &mut [u32; 4]) -> Result<(), String> {
 }
 
 fn check_pair(seed: u64, met: &mut [u32; 2]) -> Result<(), String> {
-    let random = &mut Random(seed.wrapping_mul(0x9e6c_63d0_a5b4_7a1d));
+    let random = &mut Random::new(seed.wrapping_mul(0x9e6c_63d0_a5b4_7a1d));
     let size = random.decade(-3.0, 3.0);
     let horizon = random.decade(-2.0, 2.0);
     let reach = size * random.decade(-2.0, 0.5);
@@ -192,7 +192,7 @@ fn spheres_meet_each_other_when_sampling_says_so() {
 #[test]
 fn a_fall_from_rest_onto_an_edge_is_found() {
     for seed in 0..20_000_u64 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let (r, g) = (random.between(0.05, 0.5), 9.8);
         let center = random.vector() * 5.0;
         let (high, deep) = (random.between(0.05, 0.5), random.between(0.5, 2.0));
@@ -216,7 +216,7 @@ fn a_fall_from_rest_onto_an_edge_is_found() {
 #[test]
 fn a_slide_over_the_edge_where_the_next_wall_leads_down_is_no_approach() {
     for seed in 0..20_000_u64 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let along = random.vector().normalize();
         let across = along.any_orthonormal_vector();
         let up = across.cross(along);
@@ -236,7 +236,7 @@ fn a_slide_over_the_edge_where_the_next_wall_leads_down_is_no_approach() {
 
 #[test]
 fn small_spheres_that_come_from_afar_touch_to_rounding_when_they_meet() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for _ in 0..10_000 {
         let reach = random.decade(-9.0, -2.0);
         let (from, speed) = (random.vector().normalize() * random.between(1.0, 10.0), random.decade(-3.0, 3.0));

@@ -1,6 +1,6 @@
 //! Closed forms that the event-driven method must meet to rounding: drops, bounces, impacts, chains, edges, slopes.
 
-use crate::support::{ELASTIC, G, floor, go, scene, sphere, wall};
+use crate::support::{ELASTIC, G, ball, floor, go, recorded, scene, smooth, sphere, wall};
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Settings, Simulation, State, Until};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
@@ -9,9 +9,7 @@ use glam::{DVec3, dvec3};
 const EPS: f64 = f64::EPSILON;
 
 fn start(scene: &Scene) -> Simulation {
-    let mut run = Simulation::new(scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-3 });
-    run.record_events(true);
-    run
+    recorded(scene, Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-3 })
 }
 
 /// Runs frame by frame until this pair or wall has collided; returns the state right then.
@@ -29,11 +27,6 @@ fn rows(run: &mut Simulation, class: Class) -> Vec<Contact> {
     run.take_events().into_iter().filter(|row| row.class == class).collect()
 }
 
-/// Everything at once has this restitution; nothing rubs, nothing rests before its time.
-fn smooth(e: f64) -> ContactLaw {
-    ContactLaw { restitution: e, wall_restitution: e, ..ELASTIC }
-}
-
 /// A sphere of radius 0.5 m, `h` (m) above the floor.
 fn dropped(h: f64, law: ContactLaw) -> Scene {
     dropped_ball(0.5, h, law)
@@ -42,10 +35,6 @@ fn dropped(h: f64, law: ContactLaw) -> Scene {
 /// A sphere of radius `r` (m), `h` (m) above the floor.
 fn dropped_ball(r: f64, h: f64, law: ContactLaw) -> Scene {
     scene(G, law, vec![floor(20.0)], vec![sphere(DVec3::Y * (r + h), DVec3::ZERO, r)])
-}
-
-fn ball(x: f64, v: f64, mass: f64) -> Sphere {
-    Sphere { mass, ..sphere(DVec3::X * x, DVec3::X * v, 0.5) }
 }
 
 /// A wall across the x axis, its back to the left.

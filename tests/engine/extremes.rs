@@ -3,9 +3,9 @@
 //! `cargo test --test engine extremes:: -- --nocapture` prints it. Each cell says what was found; what must hold for it, and of
 //! `paper` what fails and how, is checked while it is filled in.
 
-use crate::support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, room, run_to, scene, sphere, wall};
+use crate::support::{ELASTIC, G, PAPER_LAW, floor, paper_scene, recorded, room, run_to, scene, sphere, still, wall};
 use carom::physics::{Class, Method, Scene, Settings, Simulation, Stall, Until};
-use carom::scene::{ContactLaw, Sphere, Wall};
+use carom::scene::{ContactLaw, Wall};
 use glam::{DVec3, dvec3};
 
 /// What is found, or what must not be.
@@ -58,9 +58,7 @@ fn must(holds: bool, cell: String) -> Cell {
 }
 
 fn start(scene: &Scene, method: Method, dt: f64, tolerance: f64) -> Simulation {
-    let mut run = Simulation::new(scene, Settings { method, dt, tolerance });
-    run.record_events(true);
-    run
+    recorded(scene, Settings { method, dt, tolerance })
 }
 
 /// Runs to `until` (s), or says why that cannot be.
@@ -71,10 +69,6 @@ fn go(run: &mut Simulation, until: f64) -> Result<(), String> {
 /// Impacts up to now.
 fn impacts(run: &mut Simulation) -> usize {
     run.take_events().iter().filter(|event| event.class == Class::Collide).count()
-}
-
-fn still(x: DVec3) -> Sphere {
-    sphere(x, DVec3::ZERO, 0.5)
 }
 
 fn law(restitution: f64, rest_speed: f64) -> ContactLaw {
@@ -154,7 +148,7 @@ fn passing(method: Method, speed: f64) -> Result<usize, String> {
         go(&mut run, 0.05)?;
         let v = run.state().v[0].x;
         passed += usize::from(v > 0.0);
-        // Whoever does not pass comes back at 0.8 of the speed.
+        // A sphere that does not pass comes back at 0.8 of the speed.
         if v <= 0.0 && (v / speed + 0.8).abs() > 1e-9 {
             return Err(format!("comes back at {v} m/s"));
         }

@@ -68,7 +68,7 @@ fn drop_into(random: &mut Random, walls: Vec<Wall>, r: f64) -> Scene {
 fn assert_rest(count: u64, of: impl Fn(&mut Random) -> Scene) {
     let mut left = 0;
     for (seed, method) in (0..count).flat_map(|seed| METHODS.map(|method| (seed, method))) {
-        let scene = of(&mut Random(seed));
+        let scene = of(&mut Random::new(seed));
         let (state, mut after) = match run(&scene, method, 60.0) {
             Ok(done) => done,
             Err(why) => panic!("seed {seed} by {method:?}: {why}"),
@@ -111,7 +111,7 @@ fn tube(count: usize, r: f64, turn: f64) -> Vec<Wall> {
 #[test]
 fn what_just_fits_slides_along_its_tube_without_an_event() {
     for (seed, method) in (0..200_u64).flat_map(|seed| METHODS.map(|method| (seed, method))) {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let count = 2 + (random.unit() * 6.0) as usize;
         let r = random.between(0.1, 2.0);
         let turn = if random.unit() < 0.5 { 0.0 } else { random.unit() };
@@ -145,7 +145,7 @@ fn what_just_fits_slides_along_its_tube_without_an_event() {
 #[test]
 fn what_just_fits_leaves_its_tube_with_all_its_speed() {
     for seed in 0..200_u64 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let count = random.pick(&[2, 4, 4, 6]);
         let r = random.pick(&[0.03, 0.1, 0.5]);
         let out = random.vector().normalize_or(DVec3::Y);
@@ -172,7 +172,7 @@ fn what_just_fits_leaves_its_tube_with_all_its_speed() {
 #[test]
 fn a_blow_along_a_tube_drives_nothing_into_its_walls() {
     for seed in 0..200_u64 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let (r, play) = (0.1, random.decade(-15.0, -12.0));
         let walls = tube(random.pick(&[2, 4]), r * (1.0 + play), 0.0);
         let restitution = random.pick(&[0.0, 0.5, 0.9]);

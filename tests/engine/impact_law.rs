@@ -3,7 +3,7 @@
 //!
 //! `CAROM_LONG=1 cargo test --release --test engine impact_law::` counts six digits of π at one instant too.
 
-use crate::support::{ELASTIC, G, changed, floor, go, scene, sphere, wall};
+use crate::support::{ELASTIC, G, ball, changed, floor, go, recorded, scene, smooth, sphere, wall};
 use carom::physics::{Class, ContactLaw, Method, Scene, Settings, Simulation};
 use carom::scene::{Sphere, Wall};
 use glam::{DVec3, dvec3};
@@ -12,18 +12,7 @@ use glam::{DVec3, dvec3};
 const EPS: f64 = f64::EPSILON;
 
 fn start(scene: &Scene, method: Method) -> Simulation {
-    let mut run = Simulation::new(scene, Settings { method, dt: 1e3, tolerance: 1e-3 });
-    run.record_events(true);
-    run
-}
-
-/// Everything has this restitution; nothing rubs, nothing rests before its time.
-fn smooth(e: f64) -> ContactLaw {
-    ContactLaw { restitution: e, wall_restitution: e, ..ELASTIC }
-}
-
-fn ball(x: f64, v: f64, mass: f64) -> Sphere {
-    Sphere { mass, ..sphere(DVec3::X * x, DVec3::X * v, 0.5) }
+    recorded(scene, Settings { method, dt: 1e3, tolerance: 1e-3 })
 }
 
 /// A wall across the x axis.

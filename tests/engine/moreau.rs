@@ -1,7 +1,8 @@
 //! Crowds by velocity-level time-stepping: what it promises of drops, impacts, rest, piles, and of its own solver.
 
 use crate::support::{
-    ELASTIC, G, PAPER_LAW, changed, floor, gas, lattice, moved, pyramid, room, run_to, scene, sphere, wall,
+    ELASTIC, G, PAPER_LAW, changed, floor, gas, lattice, moved, pyramid, recorded, room, run_to, scene, sphere, still,
+    wall,
 };
 use carom::audit::{Fault, Judge};
 use carom::physics::{Class, Contact, Kind, Method, Scene, Settings, Simulation, StallKind, Until};
@@ -16,13 +17,7 @@ fn moreau(dt: f64, tolerance: f64) -> Settings {
 }
 
 fn start(scene: &Scene, dt: f64, tolerance: f64) -> Simulation {
-    let mut run = Simulation::new(scene, moreau(dt, tolerance));
-    run.record_events(true);
-    run
-}
-
-fn still(x: DVec3) -> Sphere {
-    sphere(x, DVec3::ZERO, 0.5)
+    recorded(scene, moreau(dt, tolerance))
 }
 
 /// A tube of square section, as wide as a sphere, and its floor.

@@ -1,16 +1,14 @@
 //! Walls that meet, by velocity-level time-stepping: no seam is felt, no impact counts twice, nothing gets out.
 
 use crate::random::Random;
-use crate::support::{G, PAPER_LAW, room, run_to, scene, sphere, wall};
+use crate::support::{G, PAPER_LAW, recorded, room, run_to, scene, sphere, wall};
 use carom::geometry::Parallelogram;
 use carom::physics::{Kind, Method, Progress, Scene, Settings, Simulation, Until};
 use carom::scene::{ContactLaw, Sphere, Wall};
 use glam::{DVec3, dvec3};
 
 fn start(scene: &Scene, dt: f64) -> Simulation {
-    let mut run = Simulation::new(scene, Settings { method: Method::Moreau, dt, tolerance: 1e-3 });
-    run.record_events(true);
-    run
+    recorded(scene, Settings { method: Method::Moreau, dt, tolerance: 1e-3 })
 }
 
 fn floor(center: DVec3, width: f64, depth: f64) -> Wall {
@@ -175,7 +173,7 @@ fn obstacles(random: &mut Random, r: f64) -> Vec<Wall> {
 
 /// A closed room, some walls in it, a few spheres clear of all; of a tight tube, one sphere in it.
 fn hunted(seed: u64) -> Scene {
-    let random = &mut Random(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ 0x2545_f491_4f6c_dd1d);
+    let random = &mut Random::new(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ 0x2545_f491_4f6c_dd1d);
     let r = random.between(0.1, 0.5);
     let mut walls = room(DVec3::splat(-3.0), DVec3::splat(3.0));
     let around = obstacles(random, r);

@@ -121,7 +121,7 @@ fn direction(random: &mut Random) -> DVec3 {
 /// Asks for the answer to `count` problems, by seed.
 fn assert_solved(count: u64, problem: impl Fn(&mut Random) -> Problem) {
     for seed in 0..count {
-        let problem = problem(&mut Random(seed));
+        let problem = problem(&mut Random::new(seed));
         let fault = problem.fault();
         assert!(fault.is_empty(), "seed {seed}: {fault}\n{problem:?}");
     }
@@ -156,7 +156,7 @@ fn a_sphere_in_a_funnel_of_three_to_eight_walls_is_held() {
 #[test]
 fn what_lies_at_the_bottom_of_a_funnel_does_not_move() {
     for seed in 0..2000 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let (rise, count) = (random.decade(-6.0, -0.01), 3 + (random.unit() * 6.0) as usize);
         let normals = funnel(&mut random, count, rise);
         let free = normals.iter().sum::<DVec3>().normalize() * -9.8;
@@ -221,7 +221,7 @@ fn edges_and_corners_open_at_their_own_pace() {
 #[test]
 fn the_nearest_of_all_motions_is_found() {
     for seed in 0..3000 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let count = 1 + (random.unit() * 8.0) as usize;
         let mut normals: Vec<DVec3> = (0..count).map(|_| direction(&mut random)).collect();
         if count > 4 {

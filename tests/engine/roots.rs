@@ -32,7 +32,7 @@ fn distance(random: &mut Random) -> [f64; 5] {
 
 #[test]
 fn two_hundred_thousand_wild_quartics_have_the_roots_that_polycool_finds() {
-    let mut random = Random(0x706f_6c79);
+    let mut random = Random::new(0x706f_6c79);
     let (mut roots, mut tangencies) = (0, 0);
     for case in 0..200_000 {
         let c = if case % 2 == 0 {

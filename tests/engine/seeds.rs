@@ -1,19 +1,14 @@
 //! What the owner asked for: the source paper's sentences and formulas, a test each.
 
-use crate::support::{self, ELASTIC, G, PAPER_LAW, changed, paper, run_to, scene, sphere, wall};
+use crate::support::{self, ELASTIC, G, PAPER_LAW, changed, floor, paper, run_to, scene, sphere, wall};
 use carom::physics::overlap::{pair_touch, wall_touch};
 use carom::physics::wall::Face;
 use carom::physics::{Class, Contact, ContactLaw, Kind, Method, Progress, Scene, Simulation, Until, describe};
 use glam::{DVec3, dvec3};
 
-/// A floor of 20 m × 20 m at y = 0.
-fn floor() -> carom::scene::Wall {
-    wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::NEG_Z * 20.0)
-}
-
 /// A sphere of radius 0.5 m that touches the floor at t = 0.
 fn on_floor(gravity: DVec3, v: DVec3) -> Scene {
-    scene(gravity, PAPER_LAW, vec![floor()], vec![sphere(DVec3::Y * 0.5, v, 0.5)])
+    scene(gravity, PAPER_LAW, vec![floor(20.0)], vec![sphere(DVec3::Y * 0.5, v, 0.5)])
 }
 
 /// Two spheres of radius 0.5 m that touch at t = 0 along x, with these masses and velocities.
@@ -69,7 +64,7 @@ fn a_transient_force_is_cleared_as_soon_as_the_update_is_done() {
 #[test]
 fn the_impulse_acts_in_full_however_short_the_next_frame_is() {
     // The second sphere is 1 mm over the floor: the first frame is cut short there, a tenth of the way.
-    let walls = vec![floor()];
+    let walls = vec![floor(20.0)];
     let spheres =
         vec![sphere(dvec3(-3.0, 0.5, 0.0), DVec3::NEG_Y, 0.5), sphere(dvec3(3.0, 0.501, 0.0), DVec3::NEG_Y, 0.5)];
     let mut run = Simulation::new(&scene(DVec3::ZERO, PAPER_LAW, walls, spheres), paper(0.01, 1e-3));
@@ -117,7 +112,7 @@ fn the_side_of_a_wall_is_the_one_where_the_frame_began() {
 fn bisection_ends_when_the_degree_lies_within_the_tolerance_plus_the_printed_slack() {
     for tolerance in [1e-1, 1e-3, 1e-6, 0.0] {
         let body = sphere(dvec3(0.0, 0.53, 0.0), dvec3(0.0, -5.0, 0.0), 0.5);
-        let mut run = Simulation::new(&scene(G, PAPER_LAW, vec![floor()], vec![body]), paper(0.01, tolerance));
+        let mut run = Simulation::new(&scene(G, PAPER_LAW, vec![floor(20.0)], vec![body]), paper(0.01, tolerance));
         frames(&mut run, 1);
         let contact = run.contacts()[0];
         let accepted = tolerance + 1e-4;
@@ -222,7 +217,7 @@ fn a_resting_normal_velocity_becomes_zero() {
 fn a_sphere_that_touches_at_load_is_in_contact_and_one_a_hair_away_is_not() {
     let at = |y: f64| {
         let body = sphere(DVec3::Y * y, DVec3::NEG_Y, 0.5);
-        Simulation::new(&scene(G, PAPER_LAW, vec![floor()], vec![body]), paper(0.01, 1e-3)).contacts().len()
+        Simulation::new(&scene(G, PAPER_LAW, vec![floor(20.0)], vec![body]), paper(0.01, 1e-3)).contacts().len()
     };
     assert_eq!([at(0.5), at(0.5 + 1e-13), at(0.5 + 1e-11)], [1, 1, 0]);
 }
@@ -230,7 +225,7 @@ fn a_sphere_that_touches_at_load_is_in_contact_and_one_a_hair_away_is_not() {
 #[test]
 fn walls_come_before_pairs_and_all_in_the_order_of_their_numbers() {
     let spheres = [2.0, 0.0, 1.0].map(|x| sphere(dvec3(x, 0.5, 0.0), DVec3::NEG_Y, 0.5));
-    let run = Simulation::new(&scene(G, PAPER_LAW, vec![floor()], spheres.to_vec()), paper(0.01, 1e-3));
+    let run = Simulation::new(&scene(G, PAPER_LAW, vec![floor(20.0)], spheres.to_vec()), paper(0.01, 1e-3));
     let order: Vec<_> = run.contacts().iter().map(Contact::key).collect();
     let expected = [(Kind::Wall, 0, 0), (Kind::Wall, 1, 0), (Kind::Wall, 2, 0), (Kind::Pair, 0, 2), (Kind::Pair, 1, 2)];
     assert_eq!(order, expected);
@@ -250,7 +245,7 @@ fn tolerances_above_one_half_count_as_one_half() {
 fn overlap_from_before_the_tolerance_was_lowered_is_allowed_until_it_ends() {
     // It falls slowly enough to rest at once, 4 mm deep.
     let body = sphere(dvec3(0.0, 0.505, 0.0), dvec3(0.1, -0.09, 0.0), 0.5);
-    let mut run = Simulation::new(&scene(G * 1e-3, PAPER_LAW, vec![floor()], vec![body]), paper(0.1, 0.2));
+    let mut run = Simulation::new(&scene(G * 1e-3, PAPER_LAW, vec![floor(20.0)], vec![body]), paper(0.1, 0.2));
     assert!(run_to(&mut run, 1.0, u64::MAX).is_none());
     let deep = run.contacts()[0].degree;
     assert!(deep > 1e-3, "{deep}");

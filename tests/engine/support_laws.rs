@@ -3,8 +3,8 @@
 //! g = 9.8 m/s² downwards, radius 0.5 m throughout. Oracles are closed forms, the complementarity conditions
 //! themselves, and energy.
 
+use crate::random::Random;
 use carom::physics::support::{Bodies, Fate, Held, Resting, Row, Solver, Surface, hold, islands, solve};
-use carom::random::SplitMix64;
 use glam::DVec3;
 
 const G: DVec3 = DVec3::new(0.0, -9.8, 0.0);
@@ -307,30 +307,9 @@ fn a_row_of_three_hundred_spheres_in_a_groove_is_pivoted_and_says_so() {
     assert!(held.acceleration.vectors.iter().all(|a| *a == DVec3::ZERO));
 }
 
-/// The random numbers that a problem is made of.
-struct Random(SplitMix64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0.unit()
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.unit() * count as f64) as usize
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - DVec3::ONE
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        self.vector().normalize_or(DVec3::Y)
-    }
-}
-
 /// A random problem: 1–12 bodies, up to 30 contacts, some of them repeated, masses over `decades` decades.
 fn random_problem(seed: u64, decades: i32) -> (Vec<f64>, Vec<DVec3>, Vec<Row>) {
-    let mut random = Random(SplitMix64::new(seed));
+    let mut random = Random::new(seed);
     let count = 1 + random.below(12);
     let mass = |random: &mut Random| 10_f64.powf((random.unit() - 0.5) * f64::from(decades));
     let inverse_mass: Vec<f64> = (0..count).map(|_| mass(&mut random)).collect();

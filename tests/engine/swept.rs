@@ -93,7 +93,7 @@ fn impacts_happen_at_degrees_within_the_tolerance() {
 #[test]
 fn nothing_tunnels_at_any_speed() {
     // A plate of no thickness, met head on from random distances and offsets.
-    let random = &mut Random(1);
+    let random = &mut Random::new(1);
     for speed in [1e2, 1e4, 1e6, 1e8] {
         for _ in 0..50 {
             let plate = wall(DVec3::ZERO, dvec3(0.0, 4.0, 0.0), dvec3(0.0, 0.0, 4.0));

@@ -49,7 +49,7 @@ fn any(random: &mut Random) -> Double {
 
 #[test]
 fn sums_products_quotients_and_roots_are_as_near_as_is_proven() {
-    let random = &mut Random(20);
+    let random = &mut Random::new(20);
     for _ in 0..20_000 {
         let (a, b) = (any(random), any(random));
         // near in size, so that most digits of a difference cancel

@@ -7,7 +7,7 @@ use glam::{DVec3, dvec3};
 
 use crate::arithmetic::{Big, big, decimal, off, whole};
 use crate::random::Random;
-use crate::support::{ELASTIC, G, PAPER_LAW, gas, go, room, scene, sphere, wall};
+use crate::support::{ELASTIC, G, PAPER_LAW, floor, gas, go, room, scene, sphere, wall};
 
 fn certified(scene: &Scene, until: f64) -> Certificate {
     certify(scene, until, &|| true).expect("it is not interrupted")
@@ -16,11 +16,6 @@ fn certified(scene: &Scene, until: f64) -> Certificate {
 /// Component `axis` of where the shadow has sphere `i`, m.
 fn place(certificate: &Certificate, i: usize, axis: usize) -> Double {
     certificate.place(i).expect("there is such a sphere")[axis]
-}
-
-/// A floor of 40 m × 40 m at y = 0.
-fn floor() -> scene::Wall {
-    wall(DVec3::ZERO, DVec3::X * 40.0, DVec3::NEG_Z * 40.0)
 }
 
 /// Nothing rests.
@@ -46,7 +41,7 @@ fn a_fall_is_the_parabola_to_the_last_digit() {
 fn a_ball_that_loses_at_each_bounce_is_where_the_geometric_series_has_it() {
     // From 4 m at 8 m/s² it lands after 1 s at 8 m/s, and again after 1, 1/2 and 1/4 s: at 2.75 s at 1 m/s.
     let ball = sphere(dvec3(0.0, 4.5, 0.0), DVec3::X, 0.5);
-    let falling = scene(DVec3::NEG_Y * 8.0, bouncy(0.5, 0.5), vec![floor()], vec![ball]);
+    let falling = scene(DVec3::NEG_Y * 8.0, bouncy(0.5, 0.5), vec![floor(40.0)], vec![ball]);
     let certificate = certified(&falling, 2.625);
     let x = big(1.0 + 0.5 + 0.5 * 0.25 + 0.125 * 0.125);
     assert!(off(place(&certificate, 0, 0), &x) < 1e-29, "{certificate:?}");
@@ -58,7 +53,7 @@ fn a_ball_that_loses_at_each_bounce_is_where_the_geometric_series_has_it() {
 fn bounces_at_times_that_are_no_fractions_come_to_thirty_digits() {
     let (e, height, until) = (0.7, 1.3, 2.1);
     let ball = sphere(dvec3(0.0, 0.5 + height, 0.0), DVec3::ZERO, 0.5);
-    let certificate = certified(&scene(G, bouncy(e, 1.0), vec![floor()], vec![ball]), until);
+    let certificate = certified(&scene(G, bouncy(e, 1.0), vec![floor(40.0)], vec![ball]), until);
     let g = big(9.8);
     let fall = (big(2.0) * (big(0.5 + height) - big(0.5)) / &g).sqrt();
     let (mut since, mut speed, mut bounces) = (fall.clone(), &g * &fall * big(e), 1);
@@ -138,7 +133,7 @@ fn any_scene(random: &mut Random) -> Scene {
 
 #[test]
 fn what_exact_says_of_its_error_holds_in_each_of_a_thousand_scenes() {
-    let random = &mut Random(7);
+    let random = &mut Random::new(7);
     let (mut whole_runs, mut events) = (0, 0);
     for k in 0..1000 {
         let scene = any_scene(random);
@@ -168,14 +163,14 @@ fn where_it_cannot_follow_it_ends_and_says_why() {
     };
     // One sphere lies on another, and not on its top: it rolls off.
     let rolls = vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5), sphere(dvec3(0.6, 1.3, 0.0), DVec3::ZERO, 0.5)];
-    assert_eq!(of(vec![floor()], rolls, 1.0), (Cause::CurvedRest, 0.0));
+    assert_eq!(of(vec![floor(40.0)], rolls, 1.0), (Cause::CurvedRest, 0.0));
     // At 1 m/s to the border at 20 m, ½ m above the floor on which it rests.
     let rolling = vec![sphere(dvec3(18.0, 0.5, 0.0), DVec3::X, 0.5)];
-    let (cause, until) = of(vec![floor()], rolling, 5.0);
+    let (cause, until) = of(vec![floor(40.0)], rolling, 5.0);
     assert!(cause == Cause::RollsOver && (until - 2.0).abs() < 1e-12, "{cause:?} at {until}");
     // Past a standing sphere at 2 m/s, at a distance that rounding does not tell from a touch.
     let grazes = vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5), sphere(dvec3(-2.0, 0.5, 1.0), DVec3::X * 2.0, 0.5)];
-    let (cause, until) = of(vec![floor()], grazes, 5.0);
+    let (cause, until) = of(vec![floor(40.0)], grazes, 5.0);
     assert!(cause == Cause::Touching && (0.9..=1.0).contains(&until), "{cause:?} at {until}");
 }
 
@@ -217,7 +212,7 @@ fn spheres_that_lean_on_each_other_and_do_not_move_are_certified_to_the_end() {
     assert!(off(place(&certificate, 2, 1), &big(1.3)) < 1e-15, "{certificate:?}");
     // One falls onto the top of another, with too little to bounce.
     let tower = vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5), sphere(DVec3::Y * 1.5001, DVec3::ZERO, 0.5)];
-    let certificate = certified(&scene(G, PAPER_LAW, vec![floor()], tower), 5.0);
+    let certificate = certified(&scene(G, PAPER_LAW, vec![floor(40.0)], tower), 5.0);
     assert!(certificate.until == 5.0 && certificate.ending.is_none(), "{certificate:?}");
     assert!(off(place(&certificate, 1, 1), &big(1.5)) < 1e-28, "{certificate:?}");
 }

@@ -32,6 +32,21 @@ pub(crate) fn sphere(x: DVec3, v: DVec3, radius: f64) -> Sphere {
     Sphere { x, v, mass: 1.0, radius, force: DVec3::ZERO, color: None, name: None }
 }
 
+/// A sphere of radius 0.5 m and mass 1 kg at rest.
+pub(crate) fn still(x: DVec3) -> Sphere {
+    sphere(x, DVec3::ZERO, 0.5)
+}
+
+/// A sphere of radius 0.5 m on the x axis, at `x` (m) with `v` (m/s) along it.
+pub(crate) fn ball(x: f64, v: f64, mass: f64) -> Sphere {
+    Sphere { mass, ..sphere(DVec3::X * x, DVec3::X * v, 0.5) }
+}
+
+/// Everything has this restitution; nothing rubs, nothing rests before its time.
+pub(crate) fn smooth(e: f64) -> ContactLaw {
+    ContactLaw { restitution: e, wall_restitution: e, ..ELASTIC }
+}
+
 /// The six walls of a box, in the order and orientation of the source paper's table.
 pub(crate) fn room(min: DVec3, max: DVec3) -> Vec<Wall> {
     let (c, s) = (0.5 * (min + max), max - min);
@@ -69,6 +84,13 @@ pub(crate) const G: DVec3 = dvec3(0.0, -9.8, 0.0);
 /// Scene `k` of the source paper.
 pub(crate) fn paper_scene(k: usize) -> Scene {
     carom::scene::open(format!("paper-{k}")).expect("a built-in scene").scene
+}
+
+/// A run at its start that keeps its events.
+pub(crate) fn recorded(scene: &Scene, settings: Settings) -> Simulation {
+    let mut run = Simulation::new(scene, settings);
+    run.record_events(true);
+    run
 }
 
 /// Goes on to a frame that ends at or after `t` (s), in slices of `work`; why it stalled, if it did.

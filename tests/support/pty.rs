@@ -78,7 +78,7 @@ impl Start<'_> {
             command.env_remove(variable);
         }
         command.env("LANG", "C.UTF-8");
-        command.env("CAROM_CONFIG", "/dev/null"); // not the one of whoever runs the tests
+        command.env("CAROM_CONFIG", "/dev/null"); // not that of the user
         command.env("TERM", "xterm-256color");
         for (name, value) in self.environment {
             command.env(name, value);

@@ -1,21 +1,23 @@
-//! Random cases that are the same everywhere, sharing no code with the product.
+//! Random cases that are the same everywhere.
 
 // Each test file is a crate of its own and uses what it needs.
 #![allow(dead_code)]
 
+use carom::random::SplitMix64;
 use glam::DVec3;
 
-/// SplitMix64.
-pub(crate) struct Random(pub(crate) u64);
+/// The random numbers that a case is made of.
+pub(crate) struct Random(SplitMix64);
 
 impl Random {
+    /// The stream of a seed.
+    pub(crate) fn new(seed: u64) -> Random {
+        Random(SplitMix64::new(seed))
+    }
+
     /// In [0, 1).
     pub(crate) fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        self.0.unit()
     }
 
     /// In [low, high).
@@ -32,8 +34,19 @@ impl Random {
     pub(crate) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
     }
+
+    /// A direction, more often toward a corner of the cube than toward a side.
+    pub(crate) fn direction(&mut self) -> DVec3 {
+        self.vector().normalize_or(DVec3::Y)
+    }
+
+    /// A whole number in [0, bound).
+    pub(crate) fn below(&mut self, bound: usize) -> usize {
+        self.0.below(bound)
+    }
+
     /// One of these.
     pub(crate) fn pick<T: Copy>(&mut self, of: &[T]) -> T {
-        of[(self.unit() * of.len() as f64) as usize]
+        of[self.below(of.len())]
     }
 }

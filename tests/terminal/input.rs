@@ -116,7 +116,7 @@ fn ctrl_c_ends_a_paste_that_never_does() {
 
 #[test]
 fn ctrl_c_overtakes_millions_of_keys() {
-    let mut random = Random(15);
+    let mut random = Random::new(15);
     // Everything a keyboard and a broken line can send, but what ends the program by itself.
     let any = |random: &mut Random| (random.unit() * 256.0) as u8;
     let bytes = std::iter::repeat_with(|| any(&mut random)).filter(|byte| !matches!(byte, 0x03 | b'q'));

@@ -136,7 +136,7 @@ impl File {
     }
 
     /// The modules declared in it: `contact::Contact` in `physics/mod.rs` is ours.
-    fn children(&self) -> BTreeSet<String> {
+    pub(crate) fn children(&self) -> BTreeSet<String> {
         let declared = self.syntax.items.iter().filter_map(|item| match item {
             syn::Item::Mod(module) => Some(module.ident.to_string()),
             _ => None,

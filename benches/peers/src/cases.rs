@@ -1,4 +1,4 @@
-//! The scenes, how long each runs, and who enters with which settings. An entry a line: what is compared is read here.
+//! The scenes, how long each runs, and what enters with which settings. An entry a line: what is compared is read here.
 
 use carom::physics::{Method, Scene, Settings};
 
@@ -8,7 +8,7 @@ use crate::peer::{Contacts, Tuning};
 /// The names, in the order of the table.
 pub const NAMES: [&str; 5] = ["bouncing-49", "elastic-666", "inelastic-666", "gas-1000", "gas-10000"];
 
-/// A scene and who enters; the first entrant is what the others are compared with.
+/// A scene and what enters; the first entrant is what the others are compared with.
 pub struct Case {
     /// Its name.
     pub name: &'static str,

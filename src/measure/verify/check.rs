@@ -5,7 +5,7 @@ use super::runner::{Row, Runner, Trouble};
 /// A family of known results that are measured together.
 #[derive(Debug, Clone, Copy)]
 pub struct Check {
-    /// What it is about, in two or three words.
+    /// What the results are about, in two or three words.
     pub title: &'static str,
     /// What is expected, and its source.
     pub source: &'static str,

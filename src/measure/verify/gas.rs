@@ -53,12 +53,12 @@ pub(super) struct Gas<'a> {
 }
 
 impl<'a> Gas<'a> {
-    /// From this scene on, in which nothing has happened yet.
+    /// A gas that begins with this scene, in which nothing has happened yet.
     pub(super) fn new(runner: &'a Runner, scene: &Scene) -> Gas<'a> {
         Gas { runner, run: Simulation::new(scene, EXACT), count: scene.spheres.len() as f64 }
     }
 
-    /// From this scene on, run until the start is forgotten.
+    /// A gas that has run from this scene on until the start is forgotten.
     pub(super) fn thermal(runner: &'a Runner, scene: &Scene) -> Result<Gas<'a>, Trouble> {
         let mut gas = Gas::new(runner, scene);
         gas.go(WARM_UP)?;

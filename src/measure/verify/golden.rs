@@ -10,7 +10,7 @@ use crate::scene::{self, Method, Settings};
 pub struct Golden {
     /// Name of a built-in scene.
     pub scene: &'static str,
-    /// When the run ends, s.
+    /// End of the run, s.
     pub until: f64,
     /// What solves it, in frames of 0.01 s at most and with a tolerance of 1e-3.
     pub method: Method,

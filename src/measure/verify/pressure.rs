@@ -100,11 +100,11 @@ impl Bulk {
 /// A cube about the origin that fades out towards its faces: with a sharp edge, the order among neighbours that happen
 /// to lie across it would blur the density for as long as dense spheres need to change places.
 struct Region {
-    /// Half of its edge, m; at least [`FADE`].
+    /// Half of the cube's edge, m; at least [`FADE`].
     half: f64,
 }
 
-/// Depth over which it fades, m: some layers of neighbours.
+/// Depth over which the weight fades, m: some layers of neighbours.
 const FADE: f64 = 3.0 * SIGMA;
 
 impl Region {

@@ -80,7 +80,7 @@ fn drift(scene: &Scene, end: &State) -> f64 {
 struct Carried {
     wall: bool,
     normal: DVec3,
-    /// N.
+    /// Force, N.
     force: f64,
 }
 

@@ -56,7 +56,7 @@ impl Row {
 pub enum Trouble {
     /// The method gave up, or the scene was refused: a full sentence.
     Failed(String),
-    /// It was not to go on.
+    /// The measurement was told not to go on.
     Interrupted,
 }
 
@@ -105,7 +105,7 @@ impl<'a> Runner<'a> {
         self.go_on
     }
 
-    /// The one or the other, by depth.
+    /// One of two values, by depth.
     pub(super) fn pick<T>(&self, quick: T, whole: T) -> T {
         match self.depth {
             Depth::Quick => quick,

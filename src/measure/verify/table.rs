@@ -56,7 +56,7 @@ fn line(number: &str, what: &str, [expected, found, error, allowed]: [&str; 4], 
     text.trim_end().to_string()
 }
 
-/// With as many digits as fit.
+/// A value with as many digits as fit, and its unit.
 fn value(value: f64, unit: &str) -> String {
     if value.is_nan() {
         return "none".into();

@@ -19,8 +19,9 @@ use crate::physics::wall::{Part, touch};
 
 impl ContactState {
     /// How long the bounces of a contact still last, s, whose next would go [`SUMMED_HOP`](super::rounding::SUMMED_HOP)
-    /// high at most: the sum of their flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests; 0 where
-    /// they would change more than the height. Over so short a time, edges, corners and other spheres are as good as faces.
+    /// high at most: the sum of their flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests; 0
+    /// where they would change more than the height. Over so short a time, edges, corners and other spheres are as good as
+    /// faces.
     pub(crate) fn bounce_series_duration(&self, model: &Model) -> f64 {
         let (law, wall) = (&model.law, self.key.0 == Kind::Wall);
         let e = if wall { law.wall_restitution } else { law.restitution };

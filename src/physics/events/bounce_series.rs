@@ -10,11 +10,13 @@ use glam::DVec3;
 /// Bounces still to come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bounces {
-    /// Restitution, 0 < e < 1, and what an impact leaves of the tangential velocity, 0 ≤ τ ≤ 1.
+    /// Restitution, 0 < e < 1.
     pub(super) e: f64,
+    /// Share τ of the tangential velocity that an impact leaves, 0 ≤ τ ≤ 1.
     pub(super) tangential: f64,
-    /// The approach speed of the impact that has just been, u, m/s, and what presses, g_n, m/s².
+    /// Approach speed u of the impact that has just been, m/s.
     pub(super) speed: f64,
+    /// Acceleration g_n towards the face, m/s².
     pub(super) press: f64,
     /// Tangential velocity now, right after an impact, m/s.
     pub(super) slip: DVec3,
@@ -25,13 +27,13 @@ pub(super) struct Bounces {
 /// Where a series of bounces ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ending {
-    /// How long it lasts, s.
+    /// How long the series lasts, s.
     pub(super) after: f64,
     /// The way along the face, m.
     pub(super) way: DVec3,
-    /// Tangential velocity then, m/s.
+    /// Tangential velocity at the end, m/s.
     pub(super) slip: DVec3,
-    /// What is left then of a tangential velocity added now.
+    /// Share that is left at the end of a tangential velocity added now.
     pub(super) keeps: f64,
 }
 
@@ -42,25 +44,25 @@ pub(super) struct Moment {
     pub(super) speed: f64,
     /// Tangential velocity, m/s.
     pub(super) slip: DVec3,
-    /// What is left of a tangential velocity added at the beginning.
+    /// Share that is left of a tangential velocity added at the beginning.
     pub(super) keeps: f64,
     /// The way along the face since the beginning, m.
     pub(super) way: DVec3,
 }
 
-/// m impacts: eᵐ, τᵐ and Σ τ^{m−1−i} eⁱ over i < m.
+/// What m impacts multiply by: eᵐ, τᵐ and Σ τ^{m−1−i} eⁱ over i < m.
 #[derive(Debug, Clone, Copy)]
-struct Impacts {
+struct ImpactFactors {
     e: f64,
     tangential: f64,
     sum: f64,
 }
 
-impl Impacts {
-    const NONE: Impacts = Impacts { e: 1.0, tangential: 1.0, sum: 0.0 };
+impl ImpactFactors {
+    const NONE: ImpactFactors = ImpactFactors { e: 1.0, tangential: 1.0, sum: 0.0 };
 
-    fn then(self, more: Impacts) -> Impacts {
-        Impacts {
+    fn then(self, more: ImpactFactors) -> ImpactFactors {
+        ImpactFactors {
             e: self.e * more.e,
             tangential: self.tangential * more.tangential,
             sum: self.sum * more.tangential + self.e * more.sum,
@@ -111,26 +113,26 @@ impl Bounces {
         slip * (self.time() * e / (1.0 - tangential * e)) + pull * (0.5 * after * after * self.share_of_pull())
     }
 
-    /// T, s.
+    /// Duration T of a flight without loss, 2u/g_n, s.
     fn time(&self) -> f64 {
         2.0 * self.speed / self.press
     }
 
-    /// As many impacts as leave more than `bound` < 1 of the speed.
-    fn above(&self, bound: f64) -> Impacts {
+    /// The factors of as many impacts as leave more than `bound` < 1 of the speed.
+    fn above(&self, bound: f64) -> ImpactFactors {
         if bound <= 0.0 {
-            return Impacts { e: 0.0, tangential: f64::from(u8::from(self.tangential == 1.0)), sum: 0.0 };
+            return ImpactFactors { e: 0.0, tangential: f64::from(u8::from(self.tangential == 1.0)), sum: 0.0 };
         }
         // 1, 2, 4 … impacts: as many as leave more than the bound, at most 53 + 11 of them
-        let mut doubled = vec![Impacts { e: self.e, tangential: self.tangential, sum: 1.0 }];
+        let mut doubled = vec![ImpactFactors { e: self.e, tangential: self.tangential, sum: 1.0 }];
         while let Some(&last) = doubled.last().filter(|last| last.e * last.e > bound) {
             doubled.push(last.then(last));
         }
-        let more = |sofar: Impacts, &more: &Impacts| {
+        let more = |sofar: ImpactFactors, &more: &ImpactFactors| {
             let both = sofar.then(more);
             if both.e > bound { both } else { sofar }
         };
-        doubled.iter().rev().fold(Impacts::NONE, more)
+        doubled.iter().rev().fold(ImpactFactors::NONE, more)
     }
 }
 

@@ -5,13 +5,13 @@ use crate::physics::contact::{Key, Kind};
 /// The spheres whose motion an event has changed, by index: the loop predicts them in this order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Changed {
-    /// None.
+    /// No sphere.
     Nothing,
     /// The sphere of a contact with a wall.
     Sphere(usize),
     /// Both spheres of a pair.
     Pair([usize; 2]),
-    /// Those of islands.
+    /// The spheres of islands.
     Spheres(Vec<usize>),
 }
 
@@ -21,7 +21,7 @@ impl Changed {
         if kind == Kind::Pair { Changed::Pair([a, b]) } else { Changed::Sphere(a) }
     }
 
-    /// The spheres.
+    /// The spheres whose motion has changed, by index.
     pub(crate) fn spheres(&self) -> &[usize] {
         match self {
             Changed::Nothing => &[],

@@ -15,36 +15,40 @@ use crate::physics::model::{ContactLaw, Model};
 /// The law that takes nothing away: nothing dies out by it.
 const LOSSLESS: ContactLaw = ContactLaw { restitution: 1.0, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 };
 
-/// Small bounces of some contacts, each in a row so far.
+/// The rows of small bounces that are under way, by contact.
 #[derive(Debug, Clone)]
 pub(crate) struct Chatter {
-    rows: BTreeMap<Key, Row>,
+    rows: BTreeMap<Key, BounceRow>,
     /// What all spheres weigh, their own forces included, N.
     weight: f64,
 }
 
 /// A row of small bounces of one contact.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct BounceRow {
+    /// How many bounces there were.
     count: u32,
-    /// How many of them, the last ones, were lower than [`SUMMED_HOP`].
+    /// How many bounces in a row, up to the last one, were lower than [`SUMMED_HOP`].
     tiny: u32,
-    /// When the last of them was, s.
+    /// Time of the last bounce, s.
     last: f64,
-    /// The approach speed (m/s) that it should have had at most, had each lost at least the root of what restitution takes.
+    /// Approach speed (m/s) that the last bounce should have had at most, had each lost at least the root of what
+    /// restitution takes.
     due: f64,
-    /// The sum of 1 + e times the approach speeds of the last ones (m/s), and how long they took, s.
+    /// Sum of 1 + e times the approach speeds of the last bounces, m/s.
     given: f64,
+    /// How long the last bounces took, s.
     took: f64,
 }
 
-impl Row {
-    fn new(now: f64, approach_speed: f64) -> Row {
-        Row { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
+impl BounceRow {
+    fn new(now: f64, approach_speed: f64) -> BounceRow {
+        BounceRow { count: 0, tiny: 0, last: now, due: approach_speed, given: 0.0, took: 0.0 }
     }
 
-    /// Whether it goes on for ever: without the help of weights that change v_n by `pull` (m/s²) no chain of impacts is so
-    /// long beside what each of them loses.
+    /// Whether the row goes on for ever: without the help of weights that change v_n by `pull` (m/s²) no chain of impacts
+    /// is so long beside what each of them loses. The next impact approaches at `approach_speed` (m/s) and keeps the share
+    /// `keeps` of it.
     fn is_endless(&self, approach_speed: f64, keeps: f64, pull: f64) -> bool {
         if keeps == 1.0 {
             return self.count > ELASTIC_ROW && self.is_driven(pull);
@@ -60,13 +64,13 @@ impl Row {
 }
 
 impl Chatter {
-    /// No bounces yet.
+    /// A memory without bounces, for the weights of this model.
     pub(crate) fn new(model: &Model) -> Chatter {
         let weight = (0..model.len()).map(|i| model.acceleration(i).length() * model.masses[i]).sum();
         Chatter { rows: BTreeMap::new(), weight }
     }
 
-    /// How many contacts it remembers.
+    /// Number of contacts with a row of small bounces.
     pub(super) fn entries(&self) -> usize {
         self.rows.len()
     }
@@ -95,7 +99,7 @@ impl Chatter {
             self.rows.remove(&contact.key);
             return false;
         }
-        let row = self.rows.entry(contact.key).or_insert(Row::new(now, approach_speed));
+        let row = self.rows.entry(contact.key).or_insert(BounceRow::new(now, approach_speed));
         row.given = MEMORY * row.given + (1.0 + keeps) * approach_speed;
         row.took = MEMORY * row.took + (now - row.last);
         row.count = row.count.saturating_add(1);

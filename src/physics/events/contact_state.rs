@@ -16,7 +16,7 @@ use crate::physics::wall_parts::part_ahead;
 /// Two bodies that touch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactState {
-    /// Which two.
+    /// The two bodies that touch.
     pub(crate) key: Key,
     /// Contact point, m.
     pub(crate) point: DVec3,
@@ -28,11 +28,11 @@ pub(crate) struct ContactState {
     pub(crate) reach: f64,
     /// Velocity of the first sphere relative to the other body, m/s.
     pub(crate) velocity: DVec3,
-    /// Normal velocity, m/s: the predictor's own expression.
+    /// Normal velocity v_n, m/s, by the expression that the prediction uses; negative: approaching.
     pub(crate) v_n: f64,
-    /// How fast v_n grows as things are, m/s²; negative: pressed together.
+    /// Rate at which v_n grows with the present accelerations, m/s²; negative: pressed together.
     pub(crate) a_n: f64,
-    /// Whether that stays so as the bodies move: the face of a wall.
+    /// Whether a_n stays as it is while the bodies move: at the face of a wall.
     pub(crate) flat: bool,
 }
 
@@ -49,8 +49,8 @@ impl ContactState {
         self.v_n.abs() <= CLOCK_ULPS * -self.a_n * clock_ulp
     }
 
-    /// Whether bodies that accelerate apart would stop their approach by themselves sooner than the clock can tell, of which
-    /// one ulp is `clock_ulp`, s.
+    /// Whether bodies that accelerate apart would stop their approach by themselves sooner than the clock can tell, of
+    /// which one ulp is `clock_ulp`, s.
     pub(crate) fn turns_within_the_clock(&self, clock_ulp: f64) -> bool {
         -self.v_n <= self.a_n * clock_ulp
     }
@@ -113,7 +113,8 @@ impl Trajectories {
         ContactState { key, point, normal, gap, reach: r, velocity: path.v, v_n, a_n, flat }
     }
 
-    /// Point, normal, gap and velocity only, at `time` (s); v_n and a_n of a wall stay 0, which take far longer to find.
+    /// Point, normal, gap and velocity of a contact at `time` (s); v_n and a_n of a wall, which take far longer to find,
+    /// stay 0.
     pub(crate) fn contact_geometry(&self, model: &Model, key: Key, time: f64) -> ContactState {
         let (kind, a, b) = key;
         if kind == Kind::Pair {
@@ -150,15 +151,14 @@ impl Trajectories {
     }
 }
 
-/// Two spheres on these paths.
+/// The contact of two spheres on these trajectories, at the beginning of these paths.
 fn pair_state(key: Key, lines: [&Trajectory; 2], [one, two]: [Path; 2]) -> ContactState {
     let relative = one.relative_to(&two);
     let [r_a, r_b] = lines.map(|line| line.r);
     let (reach, distance) = (r_a + r_b, relative.x.length());
     let (normal, gap) = (relative.x / distance, distance - reach);
     let v_n = pair_normal_velocity(relative.x, relative.v);
-    let across = relative.v - normal * v_n;
-    let a_n = normal.dot(relative.a) + across.length_squared() / distance;
+    let a_n = relative.distance_acceleration(normal, distance);
     let point = two.x + normal * (r_b + 0.5 * gap);
     ContactState { key, point, normal, gap, reach, velocity: relative.v, v_n, a_n, flat: false }
 }

@@ -5,12 +5,12 @@ use crate::physics::model::Settings;
 use crate::physics::path::Path;
 use crate::physics::wall::Face;
 
-/// When a contact is due.
+/// When two bodies touch next, or are to be looked at again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Due {
-    /// Seconds from now.
+    /// Time until then, s.
     pub(crate) after: f64,
-    /// Whether they touch then; else they certainly do not before, and it is time to look again.
+    /// Whether the bodies touch then; else they certainly do not before, and it is time to look again.
     pub(crate) is_contact: bool,
 }
 
@@ -19,7 +19,7 @@ pub(crate) struct Due {
 pub(crate) struct Span {
     /// The present, s: paths begin now.
     pub(crate) now: f64,
-    /// Only times below this many seconds from now matter.
+    /// Only times below this matter, s from now.
     pub(crate) before: f64,
 }
 
@@ -36,13 +36,14 @@ pub(crate) trait Detector: std::fmt::Debug + Clone {
     fn new(settings: Settings) -> Self;
     /// Takes other knobs; whether its answers change by that.
     fn retune(&mut self, settings: Settings) -> bool;
-    /// A sphere of radius `r` (m) on `path`, and a wall.
+    /// When a sphere of radius `r` (m) on `path` next touches a wall while approaching it.
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due>;
-    /// Two spheres on `a` and `b` whose radii sum to `reach` (m).
+    /// When two spheres on `a` and `b` whose radii sum to `reach` (m) next touch while approaching.
     fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due>;
-    /// Until when (s) a pair is worth a look, of which one sphere has its next contact at `mine`, the other at `theirs`. What
-    /// the other meets before makes it look around anew, and find this one then.
+    /// Until when (s) a pair is worth a look, of which one sphere has its next contact at `mine`, the other at `theirs`.
+    /// What the other meets before makes it look around anew, and find this one then.
     fn pair_horizon(mine: f64, theirs: f64) -> f64;
-    /// Tells the log of a frame from `start` to `end` (s) what was looked at: `pairs` of bodies, each perhaps several times.
+    /// Tells the log of a frame from `start` to `end` (s) what was looked at: `pairs` of bodies, each perhaps several
+    /// times.
     fn report(&mut self, start: f64, end: f64, pairs: u64, log: &mut Log);
 }

@@ -1,5 +1,5 @@
-//! The event loop: a thin one, between the schedule, which knows what comes next, and the mechanics, which know what becomes
-//! of it.
+//! The event loop: a thin one, between the schedule, which knows what comes next, and the mechanics, which know what
+//! becomes of it.
 //!
 //! Take the earliest event of all (ties: walls, pairs, ends of parabolas, crossings of cells; then a, then b), advance the
 //! clock to it, let the mechanics act, predict anew the spheres that they say have changed. When no contact is left at an
@@ -38,7 +38,7 @@ const MOST_AT_LOAD: usize = 1_000_000;
 pub(crate) struct EventDriven<D> {
     settings: Settings,
     frame: Frame,
-    /// When the next event of every sphere is.
+    /// The next event of every sphere, and the earliest of all.
     pub(super) schedule: Schedule<D>,
     /// What events act on.
     pub(super) mechanics: Mechanics,
@@ -49,9 +49,9 @@ pub(crate) struct EventDriven<D> {
 struct Frame {
     /// End of the last complete frame, s.
     time: f64,
-    /// Its length, s.
+    /// Length of the last complete frame, s.
     step: f64,
-    /// Whether the next one is under way.
+    /// Whether the next frame is under way.
     open: bool,
     /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
     goal: f64,
@@ -60,12 +60,12 @@ struct Frame {
 }
 
 impl Frame {
-    /// Between frames at `time`, s.
+    /// The clock of frames between two of them, at `time`, s.
     fn at(time: f64) -> Frame {
         Frame { time, step: 0.0, open: false, goal: f64::NEG_INFINITY, end: f64::MAX }
     }
 
-    /// A frame is dt long, and so long at least that the clock moves on.
+    /// Sets the end of the frame: `dt` (s) after its beginning, and so far at least that the clock moves on.
     fn set_end(&mut self, dt: f64) {
         self.end = (self.time + dt).max(self.time.next_up()).max(self.goal).min(f64::MAX);
     }
@@ -124,8 +124,8 @@ impl<D: Detector> EventDriven<D> {
         }
     }
 
-    /// Goes on for about `work` events without keeping what they tell; whether everything up to `until` (s) has happened, or nothing more
-    /// can.
+    /// Goes on for about `work` events without keeping what they tell; whether everything up to `until` (s) has happened,
+    /// or nothing more can.
     pub(super) fn repeat(&mut self, model: &Model, log: &mut Log, until: f64, work: u64) -> bool {
         for _ in 0..work {
             if self.schedule.queue.earliest().0 > until && !self.mechanics.rests.is_dirty() {
@@ -164,7 +164,7 @@ impl<D: Detector> EventDriven<D> {
         changes
     }
 
-    /// What is being solved with.
+    /// The settings in force.
     pub(super) fn settings(&self) -> Settings {
         self.settings
     }
@@ -245,7 +245,7 @@ impl<D: Detector> EventDriven<D> {
         Turn::Frame
     }
 
-    /// One event, or the end of the frame.
+    /// Handles one event, or ends the frame.
     fn turn(&mut self, model: &Model, log: &mut Log) -> Result<Turn, Stall> {
         let EventDriven { schedule, mechanics, .. } = self;
         let Mechanics { trajectories, rests, impacts } = mechanics;
@@ -281,7 +281,7 @@ impl<D: Detector> EventDriven<D> {
         Ok(Turn::Event)
     }
 
-    /// The contact that the sphere at a slot planned is due.
+    /// Handles the contact that the sphere at a slot planned, which is due.
     #[inline(always)]
     fn contact(&mut self, model: &Model, log: &mut Log, slot: usize) -> Result<(), Stall> {
         let EventDriven { schedule, mechanics, .. } = self;
@@ -307,8 +307,8 @@ impl<D: Detector> EventDriven<D> {
         Ok(())
     }
 
-    /// The contact that the sphere at a slot planned happens; whether that has changed the sphere, so that it is predicted
-    /// with the others.
+    /// Lets the contact happen that the sphere at a slot planned; whether that has changed the sphere, so that it is
+    /// predicted with the others.
     fn meet(&mut self, model: &Model, log: &mut Log, slot: usize, plan: &Plan) -> Result<bool, Stall> {
         let key = self.mechanics.trajectories.key(slot, plan);
         let changed = self.mechanics.meet(model, log, key)?;

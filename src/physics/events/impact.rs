@@ -19,7 +19,8 @@ pub(super) fn note(log: &mut Log, row: Contact) {
 }
 
 impl Mechanics {
-    /// Two bodies touch while they approach, or are pressed together: an impact, or a rest that may begin.
+    /// Handles two bodies that touch while they approach, or are pressed together: an impact, or a rest that may begin.
+    /// Returns the spheres whose motion that has changed.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
         let interrupted = self.interrupt_series(model, log, key);
         match self.met(model, log, key)? {
@@ -61,7 +62,7 @@ impl Mechanics {
         }
     }
 
-    /// An impact: both bodies get their impulse.
+    /// Gives both bodies of an impact their impulse. Returns the spheres whose motion that has changed.
     fn collide(&mut self, model: &Model, log: &mut Log, contact: &ContactState) -> Result<Changed, Stall> {
         let (kind, a, b) = contact.key;
         let trajectories = &mut self.trajectories;
@@ -99,8 +100,8 @@ impl Mechanics {
         Ok(changed)
     }
 
-    /// The bodies of a contact have got new velocities: rests that this breaks end, and what others planned with them is
-    /// stale.
+    /// Ends the rests that the new velocities of a contact's bodies break, and makes stale what others planned with these
+    /// bodies.
     fn break_rests(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
         let changed = Changed::of(key);
         for &i in changed.spheres() {

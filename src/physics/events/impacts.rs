@@ -7,7 +7,7 @@ use crate::physics::model::Model;
 /// Memory that an entry of a map by contacts takes, bytes, with what is free beside it.
 const BYTES_AN_ENTRY: usize = 128;
 
-/// The memory of impacts.
+/// What impacts have led to: chains at this instant, and rows of small bounces.
 #[derive(Debug, Clone)]
 pub(crate) struct Impacts {
     /// What happened without the clock advancing.
@@ -17,7 +17,7 @@ pub(crate) struct Impacts {
 }
 
 impl Impacts {
-    /// None yet.
+    /// A memory without impacts.
     pub(crate) fn new(model: &Model) -> Impacts {
         Impacts { instant: Instant::default(), chatter: Chatter::new(model) }
     }

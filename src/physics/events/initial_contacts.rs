@@ -31,7 +31,7 @@ impl Mechanics {
         }
     }
 
-    /// Of these contacts those that squeeze a sphere between walls.
+    /// The contacts among `touching` that squeeze a sphere between walls.
     fn squeezing_now(&self, model: &Model, touching: &[Key]) -> Vec<Key> {
         let walls = touching.iter().take_while(|key| key.0 == Kind::Wall).count();
         let by_sphere = touching[..walls].chunk_by(|one, other| one.1 == other.1);

@@ -31,24 +31,27 @@ const STRETCH: u64 = 20 * MOST_AT_ONCE;
 /// What happened without the clock advancing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Instant {
-    /// When it began, s. At the clock's zero, which resolves any time, what follows within rounding of the time that
-    /// matters first belongs to it too.
+    /// When the instant began, s. At the clock's zero, which resolves any time, what follows within rounding of the time
+    /// that matters first belongs to it too.
     began: f64,
+    /// Events at this instant.
     pub(super) events: u64,
-    /// What they count, and those of this stretch, which began at the time `since`, s.
+    /// What the events of this instant count towards [`MOST_AT_ONCE`].
     spent: u64,
+    /// What the events since the time `since` count towards [`STRETCH`].
     stretch: u64,
+    /// When the stretch began, s.
     since: f64,
     /// The impacts of each contact in a long chain, and the fastest that its bodies have been or approached, m/s.
     chain: BTreeMap<Key, (u32, f64)>,
-    /// Whether one of them has collapsed.
+    /// Whether a contact of the chain has collapsed.
     collapsed: bool,
     /// How often each contact has opened, or approached by rounding.
     releases: BTreeMap<Key, u32>,
 }
 
 impl Instant {
-    /// How many contacts it remembers.
+    /// Number of contacts remembered, those of both maps.
     pub(super) fn entries(&self) -> usize {
         self.chain.len() + self.releases.len()
     }
@@ -81,8 +84,9 @@ impl Instant {
         self.has_collapsed(contact.key)
     }
 
-    /// Whether a contact that opens, or approaches by rounding, has done so too often at this instant: each time brings back
-    /// another contact of its island, which brings back this one. Held together for a moment, they are solved together.
+    /// Whether a contact that opens, or approaches by rounding, has done so too often at this instant: each time brings
+    /// back another contact of its island, which brings back this one. Held together for a moment, they are solved
+    /// together.
     pub(crate) fn is_stuck(&mut self, key: Key) -> bool {
         let count = self.releases.entry(key).or_default();
         *count += 1;

@@ -20,7 +20,7 @@ pub(crate) struct Mechanics {
 }
 
 impl Mechanics {
-    /// Of spheres at `state`, of which nothing rests yet.
+    /// The mechanics of spheres at `state`, of which nothing rests yet.
     pub(crate) fn new(model: &Model, state: &State) -> Mechanics {
         Mechanics {
             trajectories: Trajectories::new(model, state),
@@ -50,14 +50,14 @@ impl Mechanics {
         state
     }
 
-    /// A frame begins: states of earlier ones can no longer be read.
+    /// Forgets the states of earlier frames, which can no longer be read then: a frame begins.
     pub(crate) fn forget_past(&mut self) {
         self.trajectories.forget_past();
         self.rests.forget();
     }
 
-    /// Sees to it that a contact that is over opens at `least` (m/s, rounding) at least: the predictor would find it
-    /// again and again. The body that is freer gives way.
+    /// Makes a contact that is over open at no less than `least` (m/s, a rounding): the prediction would find it again and
+    /// again. The body that is freer gives way.
     pub(crate) fn ensure_separating(&mut self, model: &Model, key: Key, least: f64) {
         let Mechanics { trajectories, rests, .. } = self;
         let (kind, a, b) = key;

@@ -6,8 +6,8 @@ use glam::DVec3;
 use crate::physics::contact::Kind;
 use crate::physics::path::Path;
 
-/// Where a sphere was at its own time, the beginning of its current parabola. 64 bytes, one cache line: twice four
-/// numbers, as [`simd`](super::schedule::simd) reads them.
+/// State of a sphere at its own time, the beginning of its current parabola. 64 bytes, one cache line: twice four numbers,
+/// as [`simd`](super::schedule::simd) reads them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub(crate) struct Trajectory {
@@ -29,7 +29,7 @@ impl Trajectory {
         Path { x: self.x + (self.v + a * (0.5 * dt)) * dt, v: self.v + a * dt, a }
     }
 
-    /// The same parabola, with acceleration `a` (m/s²), from time `t` (s) on.
+    /// The trajectory of this parabola with acceleration `a` (m/s²) that begins at time `t` (s).
     #[inline(always)]
     pub(crate) fn advanced_to(&self, a: DVec3, t: f64) -> Trajectory {
         let Path { x, v, .. } = self.path(a, t);
@@ -41,17 +41,17 @@ impl Trajectory {
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(128))]
 pub(crate) struct Record {
-    /// Its current parabola.
+    /// The sphere's current parabola.
     pub(crate) trajectory: Trajectory,
-    /// Its next event; written by the schedule alone.
+    /// The sphere's next event; written by the schedule alone.
     pub(crate) plan: Plan,
-    /// The cell it is in, if there are cells; written by the schedule alone.
+    /// The cell that the sphere is in, if there are cells; written by the schedule alone.
     pub(crate) cell: CellRef,
-    /// How often its motion has changed.
+    /// How often the sphere's motion has changed.
     pub(crate) motion_version: u32,
-    /// Its index in the scene.
+    /// The sphere's index in the scene.
     pub(crate) sphere: u32,
-    /// 1 / m, 1/kg.
+    /// Inverse mass 1/m, 1/kg.
     pub(crate) inverse_mass: f64,
 }
 
@@ -59,24 +59,24 @@ pub(crate) struct Record {
 /// was predicted last knows of their contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Plan {
-    /// When it touches something, s; infinite if never.
+    /// When the sphere touches something, s; infinite if never.
     pub(crate) contact: f64,
-    /// When it leaves its cell, s; infinite if never.
+    /// When the sphere leaves its cell, s; infinite if never.
     pub(crate) crossing: f64,
     /// The wall's index, or the other sphere's slot.
     pub(crate) other: u32,
-    /// How often the other sphere's motion had changed by then: if it has since, the plan is stale.
+    /// How often the other sphere's motion had changed when the plan was made: if it has changed since, the plan is stale.
     pub(crate) motion_version: u32,
-    /// Wall or pair.
+    /// Whether the sphere touches a wall or another sphere.
     pub(crate) kind: Kind,
-    /// Whether they touch then; else it is time to look again.
+    /// Whether the bodies touch at `contact`; else it is time to look again.
     pub(crate) is_contact: bool,
-    /// Through which side of its cell it leaves.
+    /// Through which side the sphere leaves its cell.
     pub(crate) exit: Exit,
 }
 
 impl Plan {
-    /// Nothing happens.
+    /// A plan in which nothing happens.
     pub(crate) const IDLE: Plan = Plan {
         contact: f64::INFINITY,
         crossing: f64::INFINITY,
@@ -88,23 +88,23 @@ impl Plan {
     };
 }
 
-/// Which cube of space, counted along each axis from the origin of the cells.
+/// A cube of space, counted along each axis from the origin of the cells.
 pub(crate) type CellCoordinates = [i32; 3];
 
 /// The cell that a sphere is in.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct CellRef {
-    /// Which cube of space.
+    /// The cube of space.
     pub(crate) coordinates: CellCoordinates,
-    /// Which entry of the table, into which space is folded.
+    /// The entry of the table into which space is folded.
     pub(crate) index: u32,
 }
 
 impl CellRef {
-    /// In no cell.
+    /// A sphere that is in no cell.
     pub(crate) const LOOSE: CellRef = CellRef { coordinates: [0; 3], index: u32::MAX };
 
-    /// Whether it is in no cell.
+    /// Whether the sphere is in no cell.
     #[inline]
     pub(crate) fn is_loose(self) -> bool {
         self.index == u32::MAX
@@ -114,8 +114,8 @@ impl CellRef {
 /// A side of a cell: the axis, and +1 or −1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Exit {
-    /// 0, 1 or 2.
+    /// The axis: 0, 1 or 2.
     pub(crate) axis: u8,
-    /// +1 or −1.
+    /// The side along the axis: +1 or −1.
     pub(crate) sign: i8,
 }

@@ -18,16 +18,16 @@ use crate::physics::wall::touch;
 /// What becomes of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Verdict {
-    /// It does not approach: nothing to do.
+    /// The bodies do not approach: nothing to do.
     Leave,
     /// An impact.
     Collide,
-    /// It rests, if its island agrees.
+    /// The contact rests, if its island agrees.
     Rest(RestReason),
 }
 
 impl Mechanics {
-    /// What becomes of a contact whose bodies moved on as they do now since `since`, s.
+    /// What becomes of a contact whose bodies have moved as they do now since `since`, s.
     pub(super) fn verdict(&mut self, model: &Model, log: &mut Log, contact: &ContactState, since: f64) -> Verdict {
         if let Some(reason) = self.is_unresolved(model, contact) {
             return Verdict::Rest(reason);

@@ -5,17 +5,19 @@
 /// Why a contact rests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RestReason {
-    /// It touched at load and neither approached nor parted: v_n = 0.
+    /// The bodies touched at load and neither approached nor parted: v_n = 0.
     Touching,
-    /// It approaches no faster than `rest_speed`, and is pressed or still approaches (the scene's law; source: paper 2.4).
+    /// The bodies approach no faster than `rest_speed`, and are pressed or still approach (the scene's law; source: paper
+    /// 2.4).
     Slow,
     /// Pressed, it would be apart for less than ten ulp of the clock: |v_n| ≤ 10 ulp · |a_n|. Restitution acts on the
     /// rounding of such a flight only (Zeno).
     WithinClock,
     /// Pressed, it would hop no higher than 4 ulp of the coordinates: v_n² ≤ 2 |a_n| · 4 ulp.
     WithinCoordinates,
-    /// Pressed, with 0 < e < 1, it would hop no higher than 1e-12 r: the rest of its bounces lasts 2 |v_n| e/(1 − e)/|a_n| in
-    /// all, and is summed up; the contact holds meanwhile. Of a wall that rubs, the sum also says how far the sphere slides.
+    /// Pressed, with 0 < e < 1, it would hop no higher than 1e-12 r: the rest of its bounces lasts 2 |v_n| e/(1 − e)/|a_n|
+    /// in all, and is summed up; the contact holds meanwhile. Of a wall that rubs, the sum also says how far the sphere
+    /// slides.
     SeriesSummed,
     /// Pressed, it would hop no higher than 1e-12 r off a wall that takes nothing (e = 1) in a scene that loses energy
     /// elsewhere: without friction it slides like what rests; beside another wall, friction there is its end.
@@ -25,8 +27,8 @@ pub enum RestReason {
     /// Another wall within 45°, on which the sphere rests, takes back any impulse off this one that is no faster than what
     /// counts as closed there.
     HeldDown,
-    /// More than a hundred small bounces (opening by less than 1e-7 r) in a row, and more than 50/(1 − e), have not died out
-    /// by restitution: other contacts feed them. The limit is that all rest together.
+    /// More than a hundred small bounces (opening by less than 1e-7 r) in a row, and more than 50/(1 − e), have not died
+    /// out by restitution: other contacts feed them. The limit is that all rest together.
     Chatter,
     /// Inelastic collapse (McNamara, Young, Phys. Fluids A 4, 496, 1992): a chain of more than a thousand events at one
     /// instant whose contacts lose e⁻⁵⁰ of their speed, or come down to its rounding.
@@ -34,7 +36,7 @@ pub enum RestReason {
     /// The sphere just fits between walls: the nearest way straight off this one that the others allow leaves it by less
     /// than 64 ulp.
     Squeezed,
-    /// Its wall shares the point of a resting contact, within 1e-8 r, and neither approaches nor parts beyond rounding: the
+    /// The wall shares the point of a resting contact, within 1e-8 r, and neither approaches nor parts beyond rounding: the
     /// tile beyond a seam, the slope beyond a ridge.
     SharedPoint,
 }

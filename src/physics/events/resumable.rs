@@ -24,8 +24,9 @@ use crate::physics::state::State;
 pub(crate) struct Resumable<D> {
     engine: EventDriven<D>,
     origin: Origin,
-    /// How the run began that this one has yet to catch up with.
+    /// The state in which the run began that this one has yet to catch up with; none once it has.
     resumes: Option<State>,
+    /// The repetition under way.
     repetition: Option<Box<Repetition<D>>>,
 }
 
@@ -39,9 +40,9 @@ struct Repetition<D> {
 /// How a run began: what all of it follows from, with the model and the settings.
 #[derive(Debug, Clone)]
 enum Origin {
-    /// As the model says.
+    /// At the model's initial state.
     Model,
-    /// From another method's state, or a resumed one.
+    /// At another method's state, or a resumed one.
     State(Arc<State>),
     /// Settings that change the trajectory have changed since: a continuation would have to know when.
     Lost,

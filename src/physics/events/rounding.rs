@@ -1,9 +1,9 @@
 //! Every threshold by which the event engine tells rest and rounding from motion, in one place. Those of the integration of
 //! curved rest stand in `curved`, those of the linear solvers in `support`, those of memory and speed in `schedule`.
 //!
-//! Each is relative to the size of what it is a rounding of: the clock's ulp, the coordinates, a speed, a radius. None is
-//! a length or a time, so that a scene in other units decides the same. Errors are usually an ulp or two; the thresholds
-//! are so far above that sums of many stay below, and as far below what a scene can mean as they can be.
+//! Each is relative to the size of what it is a rounding of: the clock's ulp, the coordinates, a speed, a radius. None is a
+//! length or a time, so that a scene in other units decides the same. Errors are usually an ulp or two; the thresholds are
+//! so far above that sums of many stay below, and as far below what a scene can mean as they can be.
 //!
 //! | threshold | of what | usual error | too small | too large |
 //! |---|---|---|---|---|
@@ -101,11 +101,11 @@ pub(crate) const LEVEL: f64 = 0.7;
 /// A bounce is small if the gap has opened by less than this many radii since the impact before.
 pub(crate) const SMALL: f64 = 1e-7;
 
-/// So many small bounces of one contact in a row must not have died out. Across less than [`SUMMED_HOP`] that alone is
-/// chatter; else they must be more than [`DECAY`] times 1 / (1 − e) too.
+/// Fewest small bounces of one contact in a row, without dying out, that count as chatter. Across less than [`SUMMED_HOP`]
+/// that alone is enough; else they must be more than [`DECAY`] times 1 / (1 − e) too.
 pub(crate) const LONG_ROW: u32 = 100;
 
-/// So many times 1 / (1 − e) impacts, restitution alone leaves e⁻⁵⁰ of the speed.
+/// Number of impacts, in units of 1 / (1 − e), after which restitution alone leaves e⁻⁵⁰ of the speed.
 pub(crate) const DECAY: f64 = 50.0;
 
 /// Elastic bounces in a row that coordinates cannot tell from none.

@@ -5,20 +5,21 @@ use glam::DVec3;
 
 use super::bounce_series::{Bounces, Ending};
 
-/// What bounces that were summed up do to the tangential velocity of a sphere. Until they are over it goes on with their mean
-/// velocity.
+/// What bounces that were summed up do to the tangential velocity of a sphere. Until they are over it goes on with their
+/// mean velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rub {
     /// The bounces; without `pull` where other contacts decide how the sphere is pulled.
     bounces: Bounces,
-    /// When they began, s.
+    /// When the bounces began, s.
     began: f64,
+    /// The end of the bounces.
     ending: Ending,
-    /// The velocity that the sphere was given when they began, m/s.
+    /// The velocity that the sphere was given when the bounces began, m/s.
     mean: DVec3,
-    /// How that changes if nothing else happens, m/s².
+    /// How the mean velocity changes if nothing else happens, m/s².
     drift: DVec3,
-    /// How much of the acceleration along the face acts until they are over.
+    /// Share of the acceleration along the face that acts until the bounces are over.
     pub(crate) share: f64,
 }
 
@@ -35,9 +36,9 @@ impl Rub {
         across + self.ending.slip + (v - across - expected) * self.ending.keeps
     }
 
-    /// The velocity (m/s) at `time` (s), when something else strikes the sphere: that after the last bounce before, and what
-    /// pulls it since; from the one that it had come to. What is `applied` (m/s²) has worked along the way that it was shown
-    /// to go, which the speed allows for.
+    /// The velocity (m/s) at `time` (s), when something else strikes the sphere: that after the last bounce before, and
+    /// what pulls it since; from the one that it had come to. What is `applied` (m/s²) has worked along the way that it was
+    /// shown to go, which the speed allows for.
     pub(crate) fn interrupt(&self, v: DVec3, normal: DVec3, time: f64, applied: DVec3) -> DVec3 {
         let elapsed = time - self.began;
         let at = self.bounces.at(elapsed);

@@ -16,11 +16,11 @@ use crate::physics::overlap::touching;
 use crate::physics::support::{Row, solve};
 use crate::physics::wall::touch;
 
-/// From so many events on without the clock advancing it is asked whether a sphere is squeezed, at powers of two.
+/// Events without the clock advancing from which on it is asked whether a sphere is squeezed, at powers of two.
 const DOUBTFUL: u64 = 4;
 
 impl Mechanics {
-    /// Whether a contact can't ever be left: then all contacts that hold the sphere so rest from now on.
+    /// Whether a contact can never be left: then all contacts that hold the sphere so rest from now on.
     pub(super) fn is_squeezed(&mut self, model: &Model, contact: &ContactState) -> bool {
         let events = self.impacts.instant.events;
         let (kind, i, _) = contact.key;
@@ -58,7 +58,7 @@ pub(super) fn walls_touched(
     touched.map(|wall| (Kind::Wall, i, wall)).collect()
 }
 
-/// Of the contacts of one sphere with walls those that can't open: the nearest way to straight off the wall that none
+/// The contacts among those of one sphere with walls that cannot open: the nearest way to straight off the wall that none
 /// of the others forbids does not leave it.
 pub(super) fn squeezing(model: &Model, trajectories: &Trajectories, keys: &[Key]) -> Vec<Key> {
     if keys.len() < 2 {

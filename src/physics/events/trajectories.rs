@@ -22,12 +22,12 @@ const BEGINNING: f64 = 1.0 / 256.0;
 
 /// A trajectory that was rewritten in this frame.
 #[derive(Debug, Clone, Copy)]
-struct Past {
+struct PastTrajectory {
     sphere: u32,
-    /// When it was replaced, s.
+    /// When the trajectory was replaced, s.
     until: f64,
     line: Trajectory,
-    /// m/s².
+    /// The sphere's acceleration until then, m/s².
     acceleration: DVec3,
 }
 
@@ -36,9 +36,9 @@ struct Past {
 pub(crate) struct Trajectories {
     /// Time of the last event, s.
     pub(crate) now: f64,
-    /// By slot.
+    /// The record of each sphere, by slot.
     pub(crate) records: Vec<Record>,
-    /// The time scale of the start, s: what the clock is taken for at its zero.
+    /// The time scale of the start, s: the size of the clock's reading at its zero.
     time_scale: f64,
     /// The slot of each sphere; empty as long as each is at its index.
     slots: Vec<u32>,
@@ -46,7 +46,8 @@ pub(crate) struct Trajectories {
     common: DVec3,
     /// Acceleration by sphere, m/s²: in flight g + F/m, at rest what the supports leave of it. Empty until they differ.
     accelerations: Vec<DVec3>,
-    past: Vec<Past>,
+    /// The trajectories that were rewritten in this frame, the earliest first.
+    past: Vec<PastTrajectory>,
 }
 
 /// The time that matters first after the start, s: a small share of what the first sphere takes to fall, or to go, by its
@@ -61,7 +62,7 @@ fn time_scale(model: &Model, state: &State) -> f64 {
 }
 
 impl Trajectories {
-    /// Of spheres at `state`, the clock at its time.
+    /// The trajectories of spheres at `state`, the clock at its time.
     pub(crate) fn new(model: &Model, state: &State) -> Trajectories {
         let record = |i: usize| Record {
             trajectory: Trajectory { x: state.x[i], t: state.t, v: state.v[i], r: model.radii[i] },
@@ -122,7 +123,7 @@ impl Trajectories {
         self.records[self.slot(i)].inverse_mass
     }
 
-    /// The motion of sphere `i` has changed: what others planned with it is stale.
+    /// Notes that the motion of sphere `i` has changed: what others planned with it is stale.
     #[inline]
     pub(crate) fn mark_changed(&mut self, i: usize) {
         let slot = self.slot(i);
@@ -191,19 +192,23 @@ impl Trajectories {
         let (slot, acceleration) = (self.slot(i), self.acceleration(i));
         let line = &mut self.records[slot].trajectory;
         if line.t != t {
-            self.past.push(Past { sphere: i as u32, until: t, line: *line, acceleration });
+            self.past.push(PastTrajectory { sphere: i as u32, until: t, line: *line, acceleration });
             *line = line.advanced_to(acceleration, t);
         }
     }
 
-    /// From now on the sphere at a slot, which shares what accelerates all, is on another trajectory: what others planned
+    /// Puts the sphere at a slot, which shares what accelerates all, on another trajectory from now on: what others planned
     /// with it is stale.
     #[inline(always)]
     pub(crate) fn redirect(&mut self, slot: usize, line: Trajectory) {
         let record = &mut self.records[slot];
         if record.trajectory.t != line.t {
-            let past =
-                Past { sphere: record.sphere, until: line.t, line: record.trajectory, acceleration: self.common };
+            let past = PastTrajectory {
+                sphere: record.sphere,
+                until: line.t,
+                line: record.trajectory,
+                acceleration: self.common,
+            };
             self.past.push(past);
         }
         (record.trajectory, record.motion_version) = (line, record.motion_version.wrapping_add(1));
@@ -246,7 +251,7 @@ impl Trajectories {
             + size_of_val(&*self.past)
     }
 
-    /// A frame begins: states of earlier ones can no longer be read.
+    /// Forgets the trajectories of earlier frames, whose states can no longer be read then: a frame begins.
     pub(crate) fn forget_past(&mut self) {
         self.past.clear();
     }
@@ -276,7 +281,7 @@ impl Trajectories {
         if line.t == until {
             return;
         }
-        self.past.push(Past { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
+        self.past.push(PastTrajectory { sphere: i as u32, until, line, acceleration: self.acceleration(i) });
     }
 
     /// Which contact a plan of the sphere at a slot means.
@@ -298,12 +303,12 @@ impl Trajectories {
         self.trajectory(a).v.length() + other
     }
 
-    /// Says so if what has just happened sends sphere `i` out of the range of numbers.
+    /// A stall if what has just happened sends sphere `i` out of the range of numbers.
     pub(crate) fn check_range(&self, i: usize) -> Result<(), Stall> {
         self.check_range_at(self.slot(i))
     }
 
-    /// Says so if what has just happened sends the sphere at a slot out of the range of numbers.
+    /// A stall if what has just happened sends the sphere at a slot out of the range of numbers.
     #[inline(always)]
     pub(crate) fn check_range_at(&self, slot: usize) -> Result<(), Stall> {
         let line = &self.records[slot].trajectory;

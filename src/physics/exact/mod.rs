@@ -1,5 +1,7 @@
 //! The event-driven method: no time step. Between events every sphere moves on a parabola; the next event is computed,
 //! not searched for by stepping. The yardstick of the other methods.
+//!
+//! All of it is the engine of `events` but for `root_detector`: contact times as roots of polynomials.
 
 pub(super) mod root_detector;
 
@@ -8,10 +10,10 @@ use super::method::Description;
 use super::model::Method;
 use root_detector::RootDetector;
 
-/// The method at work.
+/// A run by `exact`.
 pub(super) type Exact = Resumable<RootDetector>;
 
-/// What the method is.
+/// What `exact` is.
 pub(super) const DESCRIPTION: Description = Description {
     method: Method::Exact,
     summary: "event-driven: parabolas between contacts whose times are roots of polynomials; no time step",

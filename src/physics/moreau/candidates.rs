@@ -17,13 +17,13 @@ use crate::physics::wall::Face;
 /// Spheres or cells worked on between two looks at the budget.
 const CHUNK: usize = 4096;
 
-/// Reach over the widest radius that the first cells are made for.
+/// Reach over the widest radius that the first cells are made for, dimensionless.
 const SNUG: f64 = 1.25;
 
-/// By how much cells grow when too many reach beyond them.
+/// Factor by which cells grow when too many spheres reach beyond them.
 const GROWTH: f64 = 1.5;
 
-/// Leaves room for the rounding of (u, v).
+/// Widening of a wall that leaves room for the rounding of (u, v), dimensionless.
 const BESIDE: f64 = 1.0 + 1e-6;
 
 /// Candidates that a frame may have beside those of each sphere: what memory small scenes may take, some 30 MB.
@@ -34,59 +34,68 @@ const MOST_PER_SPHERE: usize = 32;
 
 /// What the search does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stage {
+enum SearchStage {
     /// Compares spheres with the planes of the walls, from this one on.
     Walls(usize),
     /// Measures distances in cells, from this one on.
     Cells(usize),
     /// Compares the far-reaching spheres (all, without cells) with all spheres, from this one on.
     Far(usize),
-    /// All are found.
+    /// Nothing: all candidates are found.
     Done,
 }
 
 /// The candidates of one frame, found in slices.
 #[derive(Debug, Clone)]
-pub(super) struct Search {
+pub(super) struct Candidates {
     /// Pairs of bodies that may touch, sorted once the search is done.
     pub(super) found: Vec<Key>,
-    /// Radius and the way a sphere may go in the frame, m, by sphere.
+    /// Radius plus the way that a sphere may go in the frame, m, by sphere.
     reach: Vec<f64>,
-    /// The reach as the cells see it; no number for those compared with all.
+    /// Reach as the cells see it, m, by sphere; NaN for spheres that are compared with all others.
     near: Vec<f64>,
+    /// Spheres that are compared with all others.
     far: Vec<usize>,
     cells: Option<Cells>,
     /// Largest reach that the cells are made for, m.
     widest: f64,
-    stage: Stage,
+    stage: SearchStage,
 }
 
-impl Search {
-    pub(super) fn new(model: &Model) -> Search {
+impl Candidates {
+    pub(super) fn new(model: &Model) -> Candidates {
         let widest = SNUG * model.radii.iter().copied().fold(0.0, f64::max);
         let n = model.len();
         let cells = (model.pairs == PairSearch::Cells).then(|| Cells::new(&vec![widest; n]));
         let far = if cells.is_none() { (0..n).collect() } else { Vec::new() };
-        Search { found: Vec::new(), reach: vec![0.0; n], near: vec![0.0; n], far, cells, widest, stage: Stage::Done }
+        Candidates {
+            found: Vec::new(),
+            reach: vec![0.0; n],
+            near: vec![0.0; n],
+            far,
+            cells,
+            widest,
+            stage: SearchStage::Done,
+        }
     }
 
-    /// A copy without memory: only how wide its cells are.
-    pub(super) fn kept(&self) -> Search {
-        Search {
+    /// A copy without scratch memory, which keeps only how wide the cells are.
+    pub(super) fn kept(&self) -> Candidates {
+        Candidates {
             found: Vec::new(),
             reach: Vec::new(),
             near: Vec::new(),
             far: Vec::new(),
             cells: None,
             widest: self.widest,
-            stage: Stage::Done,
+            stage: SearchStage::Done,
         }
     }
 
     /// Gives a kept copy its memory back.
     pub(super) fn wake(&mut self, model: &Model) {
         let widest = self.widest;
-        *self = Search { widest, ..Search::new(model) };
+        *self = Candidates { widest, ..Candidates::new(model) };
         if let Some(cells) = &mut self.cells {
             *cells = Cells::new(&vec![widest; model.len()]);
         }
@@ -111,7 +120,7 @@ impl Search {
 
     pub(super) fn restart(&mut self) {
         self.found.clear();
-        self.stage = Stage::Walls(0);
+        self.stage = SearchStage::Walls(0);
         if self.cells.is_some() {
             self.fit_cells();
         }
@@ -151,18 +160,18 @@ impl Search {
         self.found.len() > most_candidates(self.reach.len())
     }
 
-    /// Goes on: whether all are found, and the work that took.
+    /// Goes on with the search among spheres at `x` (m): whether all candidates are found, and the work that took.
     pub(super) fn go_on(&mut self, model: &Model, x: &[DVec3]) -> (bool, u64) {
         if self.overflows() {
             return (true, 1);
         }
         let work = match self.stage {
-            Stage::Walls(from) => self.walls(model, x, from..x.len().min(from + CHUNK)),
-            Stage::Cells(from) => self.pairs_in_cells(from),
-            Stage::Far(from) => self.far_pairs(x, from),
-            Stage::Done => 0,
+            SearchStage::Walls(from) => self.walls(model, x, from..x.len().min(from + CHUNK)),
+            SearchStage::Cells(from) => self.pairs_in_cells(from),
+            SearchStage::Far(from) => self.far_pairs(x, from),
+            SearchStage::Done => 0,
         };
-        (self.stage == Stage::Done, work)
+        (self.stage == SearchStage::Done, work)
     }
 
     fn walls(&mut self, model: &Model, x: &[DVec3], range: Range<usize>) -> u64 {
@@ -179,18 +188,18 @@ impl Search {
         if self.overflows() {
             return (range.len() * model.faces.len()) as u64;
         }
-        self.stage = Stage::Walls(range.end);
+        self.stage = SearchStage::Walls(range.end);
         if range.end == x.len() {
             self.stage = self.after_walls(x);
         }
         1 + (range.len() * model.faces.len()) as u64
     }
 
-    fn after_walls(&mut self, x: &[DVec3]) -> Stage {
-        let Some(cells) = &mut self.cells else { return Stage::Far(0) };
+    fn after_walls(&mut self, x: &[DVec3]) -> SearchStage {
+        let Some(cells) = &mut self.cells else { return SearchStage::Far(0) };
         cells.open();
         cells.scatter(x, &self.near, 1.0, 0..x.len());
-        Stage::Cells(0)
+        SearchStage::Cells(0)
     }
 
     fn pairs_in_cells(&mut self, from: usize) -> u64 {
@@ -205,15 +214,16 @@ impl Search {
             }
         };
         let distances = cells.pairs_until(from..to, near, || full.get());
-        self.stage = if to == cells.len() { Stage::Far(0) } else { Stage::Cells(to) };
+        self.stage = if to == cells.len() { SearchStage::Far(0) } else { SearchStage::Cells(to) };
         distances + (to - from) as u64 / 4
     }
 
-    /// One far-reaching sphere with all spheres; pairs of two such are met once, from the lower index.
+    /// Compares one far-reaching sphere with all spheres; pairs of two such are met once, from the lower index. The work
+    /// that took.
     fn far_pairs(&mut self, x: &[DVec3], from: usize) -> u64 {
         let Some(&i) = self.far.get(from) else {
             self.found.sort_unstable();
-            self.stage = Stage::Done;
+            self.stage = SearchStage::Done;
             return 1 + self.found.len() as u64;
         };
         let first = if self.cells.is_some() { 0 } else { i + 1 };
@@ -224,7 +234,7 @@ impl Search {
                 self.found.push((Kind::Pair, i.min(j), i.max(j)));
             }
         }
-        self.stage = Stage::Far(from + 1);
+        self.stage = SearchStage::Far(from + 1);
         (x.len() - first) as u64
     }
 }

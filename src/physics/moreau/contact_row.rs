@@ -17,7 +17,8 @@ use crate::physics::model::{Model, Pull, Settings};
 use crate::physics::overlap::touching;
 use crate::physics::wall::{self, Face, Part};
 
-/// Larger tolerances count as this one: a solver that may miss everything by half solves nothing.
+/// The largest tolerance of `moreau`, dimensionless; larger ones count as this one: a solver that may miss everything by
+/// half solves nothing.
 const LARGEST_TOLERANCE: f64 = 0.1;
 
 /// Share of the tolerance by which a row may be missed at most, as a way over the size of the bodies.
@@ -41,7 +42,8 @@ const GRAZING_STEPS: usize = 64;
 /// Square of the difference of two normals up to which walls count as touched at one point.
 const ONE_POINT: f64 = 1e-10;
 
-/// Square of the difference of two normals up to which their mean touches both: it is off by an eighth of this, in radii, less than [`TOUCHING`].
+/// Square of the difference of two normals up to which their mean touches both: it is off by an eighth of this, in radii,
+/// less than [`TOUCHING`].
 const ONE_CRACK: f64 = 1e-12;
 
 /// Gap over the size of the bodies from which they count as touching.
@@ -63,7 +65,7 @@ pub(super) struct Meeting {
 /// A plane that touches a wall grown by the sphere's radius.
 #[derive(Debug, Clone, Copy)]
 struct Plane {
-    /// Unit, away from the wall.
+    /// Unit normal, away from the wall.
     normal: DVec3,
     /// n · x of its points, m.
     level: f64,
@@ -84,34 +86,34 @@ impl Plane {
 /// What may be missed where spheres touch walls, m.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Allowance {
-    /// How deep a sphere may already be in at the start: what the solver may have left.
+    /// How deep a sphere may already be in a wall at the start, m: what the solver may have left.
     pub(super) left: f64,
-    /// How much deeper it may get.
+    /// How much deeper the sphere may get, m.
     pub(super) more: f64,
 }
 
 /// The relative motion of two bodies from the start of a frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Path<'a> {
+pub(super) struct FramePath<'a> {
     pub(super) model: &'a Model,
     pub(super) key: Key,
     /// Centre of the sphere; of a pair from the second's to the first's, m.
     pub(super) from: DVec3,
-    /// Velocity of the same, m/s.
+    /// Velocity of the sphere; of a pair of the first relative to the second, m/s.
     pub(super) velocity: DVec3,
     /// Length of the frame, s.
     pub(super) h: f64,
 }
 
-impl<'a> Path<'a> {
+impl<'a> FramePath<'a> {
     /// The path of the bodies of `key` with these positions (m) and velocities (m/s).
-    pub(super) fn of(model: &'a Model, key: Key, x: &[DVec3], u: &[DVec3], h: f64) -> Path<'a> {
+    pub(super) fn of(model: &'a Model, key: Key, x: &[DVec3], u: &[DVec3], h: f64) -> FramePath<'a> {
         let (kind, a, b) = key;
         let (from, velocity) = match kind {
             Kind::Wall => (x[a], u[a]),
             Kind::Pair => (x[a] - x[b], u[a] - u[b]),
         };
-        Path { model, key, from, velocity, h }
+        FramePath { model, key, from, velocity, h }
     }
 
     /// Sum of the radii, m.
@@ -239,31 +241,31 @@ impl<'a> Path<'a> {
 pub(super) struct Row {
     pub(super) key: Key,
     pub(super) normal: DVec3,
-    /// c, m/s.
+    /// Offset c of the problem, m/s.
     pub(super) offset: f64,
-    /// c without a rebound, way / h, m/s.
+    /// Offset c without a rebound, way / h, m/s.
     pub(super) reached: f64,
     /// −v_n that the impact law saw, m/s.
     pub(super) approach: f64,
     pub(super) class: Class,
-    /// By how much complementarity may be missed, m/s.
+    /// Largest error of complementarity that is allowed, m/s.
     pub(super) slack: f64,
-    /// Λ, N s.
+    /// Impulse Λ, N s.
     pub(super) impulse: f64,
     /// When they touch on the path that they were found on, s after the frame's start; infinite if they do not.
     pub(super) time: f64,
     /// Whether it is a wall's face that is met.
     pub(super) face: bool,
-    /// What striking it has taken of the sphere's free velocity along the wall, m/s; opposite to that.
+    /// What striking the wall has taken of the sphere's free velocity along it, m/s; opposite to that velocity.
     pub(super) rubbed: DVec3,
 }
 
-/// What rows are made from, beside their meeting: the same for all rows of a frame.
+/// What rows are made from beside their meeting, equal for all rows of a frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Terms {
     /// Length of the frame, s.
     pub(super) h: f64,
-    /// Share of the speeds at hand that a row may be wrong by.
+    /// Share of the speeds at hand that a row may be wrong by, dimensionless.
     tolerance: f64,
     /// Fastest at which bodies that overlap are pushed apart, m/s: what the scene itself calls slow, or a frame's fall.
     push: f64,
@@ -298,20 +300,20 @@ impl Terms {
     }
 }
 
-/// How fast two bodies meet, m/s.
+/// Speeds at which two bodies meet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Speeds {
-    /// −v_n as the impact law takes it.
+    /// −v_n as the impact law takes it, m/s.
     pub(super) approach: f64,
-    /// −u_n without the row.
+    /// −u_n without the row, m/s.
     pub(super) closing: f64,
-    /// Whether it is an impact.
+    /// Whether the meeting is an impact.
     pub(super) struck: bool,
 }
 
 impl Row {
-    /// Whether it is the one to keep of two rows of one sphere that touches two walls at one point: of faces and edges
-    /// the face, of alike ones the first.
+    /// Whether this row is the one to keep of two rows of one sphere that touches two walls at one point: of faces and
+    /// edges the face, of alike ones the first.
     pub(super) fn stands_for(&self, other: &Row) -> bool {
         let one_point = (self.normal - other.normal).length_squared() <= ONE_POINT;
         one_point && if self.face == other.face { self.key < other.key } else { self.face }
@@ -322,18 +324,18 @@ impl Row {
         !other.face && (self.normal - other.normal).length_squared() <= ONE_CRACK
     }
 
-    /// Whether it comes before `best`: what is met earlier, of these what holds.
+    /// Whether this row comes before `best`: what is met earlier, of what is met at one time what holds.
     pub(super) fn comes_before(&self, best: &Row) -> bool {
         self.time < best.time || (self.time == best.time && self.holds() && !best.holds())
     }
 
-    /// Whether it only keeps bodies apart that touch, or are near each other.
+    /// Whether the row only keeps bodies apart that touch, or are near each other.
     pub(super) fn holds(&self) -> bool {
         self.class == Class::Rest && (self.time == 0.0 || self.time == f64::INFINITY)
     }
 
     /// The row of bodies that were held by `carried` (N s, 0 if by nothing) in the last frame.
-    pub(super) fn new(path: &Path, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
+    pub(super) fn new(path: &FramePath, meeting: Meeting, speeds: Speeds, carried: f64, terms: &Terms) -> Row {
         let law = &path.model.law;
         let e = if path.key.0 == Kind::Wall { law.wall_restitution } else { law.restitution };
         let gravity = pull(path.model, path.key) * terms.h;

@@ -4,15 +4,16 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::contact_row::{Allowance, Meeting, Path, Row, Speeds, TOUCHING, Terms};
-use super::run::{Carried, Moreau, Stage};
+use super::contact_row::{Allowance, FramePath, Meeting, Row, Speeds, TOUCHING, Terms};
+use super::run::{Carried, FrameStage, Moreau};
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::frame_contact::FrameContact;
 use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::Stall;
 use crate::physics::wall::Face;
-use crate::physics::{impact_law, overlap, wall};
+use crate::physics::{impact_law, wall};
 
 /// Times that new rows are looked for in a frame. Each round, some sphere reaches one more that it did not before: a
 /// wave through as many spheres. Then the frame closes as it is, and counts as not converged.
@@ -28,30 +29,30 @@ impl Moreau {
     /// Why there can be no such frame.
     pub(super) fn go_on(&mut self, model: &Model, log: &mut Log) -> Result<u64, Stall> {
         match self.stage {
-            Stage::Between => self.open(model),
-            Stage::Search { round } => {
+            FrameStage::Between => self.open(model),
+            FrameStage::Search { round } => {
                 let (done, work) = self.search.go_on(model, &self.end.x);
                 log.tallies.evaluations += work;
                 if self.search.overflows() {
-                    self.stage = Stage::Between;
+                    self.stage = FrameStage::Between;
                     return Err(self.crowded(model));
                 }
                 if done {
-                    self.stage = Stage::Meet { round, from: 0, known: self.rows.len() };
+                    self.stage = FrameStage::Meet { round, from: 0, known: self.rows.len() };
                 }
                 Ok(work)
             }
-            Stage::Meet { round, from, known } => {
+            FrameStage::Meet { round, from, known } => {
                 let to = self.search.found.len().min(from + CHUNK);
                 self.meet(model, round, from..to, known);
                 log.tallies.evaluations += (to - from) as u64;
-                self.stage = Stage::Meet { round, from: to, known };
+                self.stage = FrameStage::Meet { round, from: to, known };
                 if to == self.search.found.len() {
                     self.end_round(model, log, round, known)?;
                 }
                 Ok(2 * (to - from) as u64)
             }
-            Stage::Solve { round } => {
+            FrameStage::Solve { round } => {
                 let (done, work) = self.solver.go_on(model, &self.free, &self.end.v, &self.rows);
                 if done {
                     self.solver.read_impulses(&mut self.rows);
@@ -80,7 +81,7 @@ impl Moreau {
         let (free, v) = (&self.free, &self.end.v);
         let speed = |i: usize| free[i].length_squared().max(v[i].length_squared()).sqrt();
         self.search.begin((0..model.len()).map(|i| reach(model, i, speed(i), h)));
-        self.stage = Stage::Search { round: 0 };
+        self.stage = FrameStage::Search { round: 0 };
         Ok(model.len() as u64)
     }
 
@@ -109,7 +110,7 @@ impl Moreau {
 
     /// Makes a row of two bodies if they meet.
     fn propose(&mut self, model: &Model, key: Key, round: usize, carried: f64, terms: &Terms) {
-        let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+        let path = FramePath::of(model, key, &self.end.x, &self.solution, terms.h);
         let near = terms.near(model, key);
         let at_once = (round == 0).then_some(near);
         let found = match key.0 {
@@ -125,7 +126,7 @@ impl Moreau {
         let meets = meeting.time < f64::INFINITY && closing * terms.h >= meeting.way;
         // What is reached only because something was struck in this frame collides at the speed it has by then; not what
         // it is pulled into by what accelerates it, before all that holds it is known.
-        let before = -meeting.normal.dot(Path::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
+        let before = -meeting.normal.dot(FramePath::of(model, key, &self.end.x, &self.end.v, terms.h).velocity);
         let pulled = terms.pulled(model, key) + model.law.rest_speed;
         let approach = if round == 0 || closing <= pulled { before } else { before.max(closing) };
         // What has parted since, by more than others may push it together again, is held no longer.
@@ -134,10 +135,10 @@ impl Moreau {
         self.rows.push(Row::new(&path, meeting, Speeds { approach, closing, struck }, carried, terms));
     }
 
-    /// Whether what held a sphere in the last frame, and is no farther than `near` (m) from it still, is a wall in the plane
-    /// in which it meets this one: a sphere that goes on from tile to tile strikes the next one no more than the first one
-    /// over again.
-    fn was_held_level_with(&self, path: &Path, meeting: &Meeting, near: f64) -> bool {
+    /// Whether what held a sphere in the last frame, and is no farther than `near` (m) from it still, is a wall in the
+    /// plane in which it meets this one: a sphere that goes on from tile to tile strikes the next one no more than the
+    /// first one over again.
+    fn was_held_level_with(&self, path: &FramePath, meeting: &Meeting, near: f64) -> bool {
         let (kind, a, _) = path.key;
         let holds = |face: &Face| wall::touch(face, path.from, path.size()).gap <= near;
         let mut walls = self.walls_that_held(a).map(|wall| &path.model.faces[wall]);
@@ -158,7 +159,7 @@ impl Moreau {
         self.walls_that_held(sphere).map(|wall| -gap(wall)).fold(0.0, f64::max)
     }
 
-    /// Of the walls that a sphere has been found to meet in this round, keeps those that hold it already and the first
+    /// Keeps, of the walls that a sphere has been found to meet in this round, those that hold it already and the first
     /// that it strikes, unless one holds it: whether it strikes the others too is seen on the path that these leave it.
     /// So walls that share a point (seams, doubled walls) strike once. What strikes takes its share of the tangential
     /// velocity.
@@ -221,7 +222,8 @@ impl Moreau {
         }
     }
 
-    /// All candidates have been looked at: new rows are solved, with the others; without any the frame is complete.
+    /// Ends a round in which all candidates have been looked at: new rows are solved, with the others; without any the
+    /// frame is complete.
     fn end_round(&mut self, model: &Model, log: &mut Log, round: usize, known: usize) -> Result<(), Stall> {
         let complete = self.rows.len() == known;
         if complete || round >= MOST_ROUNDS {
@@ -230,11 +232,11 @@ impl Moreau {
         self.keep_first_strikes(model, known);
         self.rows.sort_unstable_by_key(|row| row.key);
         self.solver.begin(model, &self.free, &self.rows);
-        self.stage = Stage::Solve { round };
+        self.stage = FrameStage::Solve { round };
         Ok(())
     }
 
-    /// The rows are solved: spheres that move farther than was looked for are searched for again.
+    /// Sets out to search again, once the rows are solved, for the spheres that move farther than was looked for.
     fn look_again(&mut self, model: &Model, round: usize) {
         let h = self.settings.dt;
         let mut farther = false;
@@ -252,10 +254,10 @@ impl Moreau {
         }
         self.note_sunk();
         let known = self.rows.len();
-        self.stage = if farther { Stage::Search { round } } else { Stage::Meet { round, from: 0, known } };
+        self.stage = if farther { FrameStage::Search { round } } else { FrameStage::Meet { round, from: 0, known } };
     }
 
-    /// How far the solver leaves each sphere short of the planes of the walls that hold it.
+    /// Notes how far the solver leaves each sphere short of the planes of the walls that hold it, m.
     fn note_sunk(&mut self) {
         self.sunk.fill(0.0);
         for row in self.rows.iter().take_while(|row| row.key.0 == Kind::Wall) {
@@ -269,7 +271,7 @@ impl Moreau {
 
     /// Closes the frame: v⁺ = u, x⁺ = x + h u.
     fn close(&mut self, model: &Model, log: &mut Log, converged: bool) -> Result<(), Stall> {
-        self.stage = Stage::Between;
+        self.stage = FrameStage::Between;
         let h = self.settings.dt;
         if !converged {
             self.hold_back(model);
@@ -296,7 +298,7 @@ impl Moreau {
     fn hold_back(&mut self, model: &Model) {
         let terms = Terms::of(model, &self.settings);
         for &key in self.search.found.iter().take_while(|key| key.0 == Kind::Wall) {
-            let path = Path::of(model, key, &self.end.x, &self.solution, terms.h);
+            let path = FramePath::of(model, key, &self.end.x, &self.solution, terms.h);
             let left = terms.still(model, key);
             let entered = path.wall_meeting(None, Allowance { left, more: left });
             if entered.is_some() {
@@ -305,7 +307,8 @@ impl Moreau {
         }
     }
 
-    /// Contacts and events of the frame that has just ended: what collided, what rests, what does not rest any more.
+    /// Tells the contacts and events of the frame that has just ended: what collided, what rests, what does not rest any
+    /// more.
     fn tell(&mut self, model: &Model, log: &mut Log) {
         log.contacts.clear();
         log.probes.clear();
@@ -317,7 +320,7 @@ impl Moreau {
             let contact = self.contact(model, row);
             log.tallies.deepest_degree = log.tallies.deepest_degree.max(contact.degree);
             // A contact that carries nothing rests on as long as it touches: others may carry its load for a while.
-            let apart = -contact.degree * Path::of(model, row.key, &self.end.x, &self.end.v, self.step).size();
+            let apart = -contact.degree * FramePath::of(model, row.key, &self.end.x, &self.end.v, self.step).size();
             if row.impulse > 0.0 || apart <= TOUCHING * model.radii[row.key.1] + row.slack * self.step {
                 log.contacts.push(contact);
             }
@@ -330,24 +333,18 @@ impl Moreau {
 
     fn contact(&self, model: &Model, row: &Row) -> Contact {
         let (kind, a, b) = row.key;
-        let touch = overlap::touch(model, &self.start.x, &self.end.x, row.key);
+        let FrameContact { contact, .. } = FrameContact::new(model, &self.start.x, &self.end, row.key);
         // an impulse acts where they meet within the frame; what rests is looked at where it is now
-        let normal = if row.class == Class::Collide { row.normal } else { touch.normal };
+        let normal = if row.class == Class::Collide { row.normal } else { contact.normal };
         let other = |v: &[DVec3]| if kind == Kind::Pair { v[b] } else { DVec3::ZERO };
-        let (before, after) = (self.start.v[a] - other(&self.start.v), other(&self.end.v));
         Contact {
-            time: self.end.t,
-            kind,
-            a,
-            b,
-            point: touch.point,
             normal,
-            velocity: before,
+            velocity: self.start.v[a] - other(&self.start.v),
             approach_speed: row.approach,
-            separation_speed: impact_law::normal_velocity(self.end.v[a], after, row.normal),
+            separation_speed: impact_law::normal_velocity(self.end.v[a], other(&self.end.v), row.normal),
             impulse: row.impulse,
-            degree: touch.degree,
             class: row.class,
+            ..contact
         }
     }
 }

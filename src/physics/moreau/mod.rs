@@ -19,6 +19,16 @@
 //!
 //! Sources: Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); Jean, The non-smooth contact
 //! dynamics method (1999); Acary, Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 10.1 and 12.4.
+//!
+//! | file | owns |
+//! |---|---|
+//! | `run` | what the method keeps between calls |
+//! | `frame` | one frame, stage by stage: search, meet, solve, look again, close |
+//! | `candidates` | which bodies may touch within the frame |
+//! | `contact_row` | where and when two bodies meet, and the row of the problem that this makes |
+//! | `solver` | the complementarity problem of the frame |
+//!
+//! Begin with `run`, then `frame`.
 
 mod candidates;
 mod contact_row;

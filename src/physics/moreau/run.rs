@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::candidates::{Search, most_candidates};
+use super::candidates::{Candidates, most_candidates};
 use super::contact_row::Row;
 use super::solver::Solver;
 use crate::physics::contact::{Class, Contact, Key, Kind};
@@ -19,7 +19,7 @@ use crate::physics::state::{Stall, StallKind, State, runaway};
 /// A contact that held in the last frame, and its impulse, N s.
 pub(super) type Carried = (Key, f64);
 
-/// The method at work.
+/// A run by `moreau`.
 #[derive(Debug, Clone)]
 pub(crate) struct Moreau {
     pub(super) settings: Settings,
@@ -33,20 +33,20 @@ pub(crate) struct Moreau {
     pub(super) solution: Vec<DVec3>,
     /// What held in the last frame, sorted: all that the next one needs beside x and v.
     pub(super) carried: Vec<Carried>,
-    pub(super) search: Search,
+    pub(super) search: Candidates,
     /// Rows of the frame in progress, sorted by key.
     pub(super) rows: Vec<Row>,
     /// How deep the frame's rows leave each sphere in the walls that hold it, m.
     pub(super) sunk: Vec<f64>,
     pub(super) solver: Solver,
-    pub(super) stage: Stage,
+    pub(super) stage: FrameStage,
     /// Length of the last frame, s.
     pub(super) step: f64,
 }
 
 /// What the frame in progress does next; rounds count how often rows have been looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum FrameStage {
     /// No frame is in progress.
     Between,
     /// Looks for bodies that may touch.
@@ -58,9 +58,9 @@ pub(super) enum Stage {
     Meet {
         /// How often rows have been looked for.
         round: usize,
-        /// The next candidate.
+        /// Index of the next candidate.
         from: usize,
-        /// Rows that there were before this round.
+        /// Number of rows before this round.
         known: usize,
     },
     /// Solves the rows.
@@ -79,11 +79,11 @@ impl Engine for Moreau {
             solution: vec![DVec3::ZERO; model.len()],
             end: state,
             carried: Vec::new(),
-            search: Search::new(model),
+            search: Candidates::new(model),
             rows: Vec::new(),
             sunk: vec![0.0; model.len()],
             solver: Solver::new(model),
-            stage: Stage::Between,
+            stage: FrameStage::Between,
             step: 0.0,
         };
         moreau.load(model, log);
@@ -91,7 +91,7 @@ impl Engine for Moreau {
     }
 
     fn advance(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
-        if matches!(until, Until::Time(t) if self.end.t >= t && self.stage == Stage::Between) {
+        if matches!(until, Until::Time(t) if self.end.t >= t && self.stage == FrameStage::Between) {
             return Progress::Reached;
         }
         let mut spent = 0;
@@ -104,7 +104,7 @@ impl Engine for Moreau {
                 Until::Frame => true,
                 Until::Time(t) => self.end.t >= t,
             };
-            if self.stage == Stage::Between && reached {
+            if self.stage == FrameStage::Between && reached {
                 return Progress::Reached;
             }
         }
@@ -112,7 +112,7 @@ impl Engine for Moreau {
     }
 
     fn retune(&mut self, _: &Model, settings: Settings) {
-        self.stage = Stage::Between;
+        self.stage = FrameStage::Between;
         self.settings = settings;
     }
 
@@ -128,7 +128,8 @@ impl Engine for Moreau {
         self.step
     }
 
-    /// Within a frame velocities are those of its end, and positions lie on the straight line between its ends.
+    /// The state at `t` (s) within the last frame: velocities are those of its end, and positions lie on the straight line
+    /// between its ends.
     fn at(&self, _: &Model, t: f64) -> State {
         if t >= self.end.t {
             return self.end.clone();
@@ -143,7 +144,8 @@ impl Engine for Moreau {
         state
     }
 
-    /// Not by sphere but by contact that held: (sphere, other sphere, Λ), or (sphere, −1 − wall, Λ).
+    /// A row for each contact that held, not for each sphere: (sphere, other sphere, Λ), or (sphere, −1 − wall, Λ), Λ in N
+    /// s.
     fn transient(&self, _: &Model) -> Vec<DVec3> {
         let other = |kind: Kind, b: usize| if kind == Kind::Wall { -1.0 - b as f64 } else { b as f64 };
         self.carried.iter().map(|&((kind, a, b), impulse)| DVec3::new(a as f64, other(kind, b), impulse)).collect()
@@ -162,7 +164,7 @@ impl Engine for Moreau {
         self.end.clone()
     }
 
-    /// The frame's end and what held there; the start is a frame's inside, all else scratch.
+    /// A copy that keeps the frame's end and what held there; the start is a frame's inside, all else scratch.
     fn keep(&self) -> Moreau {
         Moreau {
             settings: self.settings,
@@ -175,7 +177,7 @@ impl Engine for Moreau {
             rows: Vec::new(),
             sunk: Vec::new(),
             solver: self.solver.kept(),
-            stage: Stage::Between,
+            stage: FrameStage::Between,
             step: self.step,
         }
     }
@@ -194,8 +196,8 @@ impl Engine for Moreau {
 }
 
 impl Moreau {
-    /// What a state of [`Engine::at`] lacks of the energy of the frame's end, J: its velocities are those of the end, while its
-    /// spheres have not yet fallen so far.
+    /// What a state of [`Engine::at`] lacks of the energy of the frame's end, J: its velocities are those of the end, while
+    /// its spheres have not yet fallen so far.
     pub(crate) fn hidden_energy_at(&self, model: &Model, state: &State) -> f64 {
         if state.t <= self.start.t || state.t >= self.end.t {
             return 0.0;
@@ -205,7 +207,7 @@ impl Moreau {
         -state.v.iter().enumerate().map(work).sum::<f64>()
     }
 
-    /// What touches at the start and does not approach rests, if something presses it; what approaches is left to the
+    /// Lets rest what touches at the start without approaching, if something presses it; what approaches is left to the
     /// first frame.
     pub(super) fn load(&mut self, model: &Model, log: &mut Log) {
         let mut finder = Finder::new(model);

@@ -43,28 +43,36 @@ const ROUNDING: f64 = 512.0 * f64::EPSILON;
 /// Share by which an island's kinetic energy may grow before it counts as a gain: rounding.
 const GAIN: f64 = 1e-12;
 
-/// No sphere: the second body of a wall's row, of infinite mass.
+/// The second body of a wall's row: no sphere, of infinite mass.
 const WALL: u32 = u32::MAX;
 
 /// A sphere while its rows are solved.
 #[derive(Debug, Clone, Copy)]
 struct Body {
+    /// Velocity, m/s.
     u: DVec3,
+    /// Inverse mass, 1/kg.
     inverse_mass: f64,
 }
 
 /// A row as the sweeps read it.
 #[derive(Debug, Clone, Copy)]
 struct Line {
+    /// Index of the first body.
     a: u32,
+    /// Index of the second body; [`WALL`] for a wall.
     b: u32,
+    /// Unit normal, from the second body to the first.
     normal: DVec3,
+    /// Offset c of the problem, m/s.
     offset: f64,
-    /// 1/A_jj, kg.
+    /// Inverse diagonal 1/A_jj of the problem, kg.
     weight: f64,
+    /// Largest change that counts as none, m/s.
     slack: f64,
+    /// Impulse Λ, N s.
     impulse: f64,
-    /// Whether its island needs no sweeps: it has been solved directly, or another one is solved without rebounds.
+    /// Whether the row's island needs no sweeps: it has been solved directly, or another one is solved without rebounds.
     settled: bool,
 }
 
@@ -72,20 +80,20 @@ struct Line {
 #[derive(Debug, Clone)]
 struct Gain {
     island: Island,
-    /// By body, m/s; empty if rebounds contradict each other.
+    /// Velocities by body, m/s; empty if rebounds contradict each other.
     u: Vec<DVec3>,
-    /// By contact, N s; empty if rebounds contradict each other.
+    /// Impulses by contact, N s; empty if rebounds contradict each other.
     impulses: Vec<f64>,
-    /// Σ m u² that it may have, J.
+    /// Σ m u² that the island may have, J.
     allowed: f64,
 }
 
 /// What the solver does next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stage {
-    /// Sweeps, the number made so far.
+enum SolverStage {
+    /// Sweeps again, after this many sweeps.
     Sweep(usize),
-    /// Solved, or given up.
+    /// Nothing: the problem is solved, or given up.
     Done,
 }
 
@@ -94,13 +102,13 @@ enum Stage {
 pub(super) struct Solver {
     bodies: Vec<Body>,
     lines: Vec<Line>,
-    /// Up to how many rows islands have been solved directly already.
+    /// Number of rows up to which islands have been solved directly already.
     resorted: usize,
     /// Islands being solved without rebounds.
     gains: Vec<Gain>,
     /// Whether all masses are alike enough for sweeping.
     alike: bool,
-    stage: Stage,
+    stage: SolverStage,
     /// Whether every row is complementary to its slack.
     pub(super) converged: bool,
     /// Rows solved so far, one at a time.
@@ -122,7 +130,7 @@ impl Solver {
             resorted: 0,
             gains: Vec::new(),
             alike,
-            stage: Stage::Done,
+            stage: SolverStage::Done,
             converged: true,
             solved: 0,
         }
@@ -133,7 +141,7 @@ impl Solver {
         Solver::idle(self.alike)
     }
 
-    /// A new frame begins.
+    /// Forgets the problem of the last frame: a new one begins.
     pub(super) fn forget(&mut self) {
         self.solved = 0;
         self.converged = true;
@@ -159,7 +167,7 @@ impl Solver {
     /// what sweeping leaves undone would make a sphere feel seams.
     fn set_out(&mut self, model: &Model, free: &[DVec3]) {
         self.resorted = 0;
-        self.stage = Stage::Sweep(0);
+        self.stage = SolverStage::Sweep(0);
         if self.any_alone() {
             self.solve_directly(model, free, MOST_DIRECT_ROWS, |island, _| island.bodies.len() == 1);
         }
@@ -181,25 +189,25 @@ impl Solver {
         several.any(|a| !paired[a as usize])
     }
 
-    /// Goes on, with the velocities of the frame's start, m/s: whether it is done, and the work that took.
+    /// Goes on, with the free velocities and those of the frame's start (m/s): whether it is done, and the work that took.
     pub(super) fn go_on(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) -> (bool, u64) {
-        let Stage::Sweep(sweeps) = self.stage else { return (true, 0) };
+        let SolverStage::Sweep(sweeps) = self.stage else { return (true, 0) };
         let calm = self.sweep(true) & self.sweep(false);
-        self.stage = Stage::Sweep(sweeps + 2);
+        self.stage = SolverStage::Sweep(sweeps + 2);
         let count = self.lines.len();
         self.solved += 2 * count as u64;
         if (calm || sweeps % SWEEPS_PER_LOOK == 0) && self.is_solved() {
-            self.stage = Stage::Done;
+            self.stage = SolverStage::Done;
         } else if sweeps * count >= PATIENCE && sweeps >= LEAST_SWEEPS {
             self.give_up(model, free, sweeps);
         }
-        if self.stage == Stage::Done {
+        if self.stage == SolverStage::Done {
             self.finish(model, free, v, rows);
         }
-        (self.stage == Stage::Done, 2 * count as u64)
+        (self.stage == SolverStage::Done, 2 * count as u64)
     }
 
-    /// Sweeping has taken long: small islands are solved directly, the others swept on for a while.
+    /// Gives up sweeping alone, which has taken long: small islands are solved directly, the others swept on for a while.
     fn give_up(&mut self, model: &Model, free: &[DVec3], sweeps: usize) {
         let rows = if sweeps >= MOST_SWEEPS { MOST_DIRECT_ROWS } else { DIRECT_ROWS };
         if self.resorted < rows {
@@ -207,11 +215,11 @@ impl Solver {
             self.solve_directly(model, free, rows, |_, _| true);
         }
         if self.is_solved() || sweeps >= MOST_SWEEPS || self.lines.iter().all(|line| line.settled) {
-            self.stage = Stage::Done;
+            self.stage = SolverStage::Done;
         }
     }
 
-    /// One sweep over all lines, forwards or backwards; whether no row moved by more than its slack.
+    /// Sweeps over all rows once, forwards or backwards; whether no row moved by more than its slack.
     fn sweep(&mut self, forwards: bool) -> bool {
         let Solver { bodies, lines, .. } = self;
         let mut calm = true;
@@ -258,7 +266,7 @@ impl Solver {
         missed.contains(&true).then_some(missed)
     }
 
-    /// The rows are solved, or given up. Sets out without rebounds for islands that would gain energy, or whose rebounds
+    /// Ends the solution of the rows. Sets out without rebounds for islands that would gain energy, or whose rebounds
     /// contradict each other (a sphere between two walls cannot leave both); if that is done already, takes the means.
     fn finish(&mut self, model: &Model, free: &[DVec3], v: &[DVec3], rows: &[Row]) {
         let unsolved = self.unsolved();
@@ -305,7 +313,7 @@ impl Solver {
         gains
     }
 
-    /// The islands of `gains` from the start and without rebounds; all others stay as they are.
+    /// Sets the islands of `gains` back to the start, without rebounds; all others stay as they are.
     fn drop_rebounds(&mut self, free: &[DVec3], rows: &[Row]) {
         self.lines.iter_mut().for_each(|line| line.settled = true);
         for gain in &self.gains {
@@ -322,7 +330,8 @@ impl Solver {
         }
     }
 
-    /// u = u_without + s (u_with − u_without), with Σ m u² = what is allowed; impulses by the same share.
+    /// Mixes the solutions of an island that would gain energy: u = u_without + s (u_with − u_without), with Σ m u² = what
+    /// is allowed; impulses by that share s too.
     fn take_means(&mut self, model: &Model) {
         for gain in self.gains.iter().filter(|gain| !gain.u.is_empty()) {
             let (mut without, mut mixed, mut change) = (0.0, 0.0, 0.0);
@@ -347,7 +356,7 @@ impl Solver {
         }
     }
 
-    /// The bodies that each line connects.
+    /// The bodies that each row connects.
     fn links(&self) -> Vec<(usize, Option<usize>)> {
         self.lines.iter().map(|line| (line.a as usize, other(line))).collect()
     }
@@ -381,7 +390,7 @@ impl Solver {
         }
     }
 
-    /// u of a sphere, m/s.
+    /// Velocity u of a sphere, m/s.
     pub(super) fn velocity(&self, sphere: usize) -> DVec3 {
         self.bodies[sphere].u
     }
@@ -407,7 +416,7 @@ fn other(line: &Line) -> Option<usize> {
     (line.b != WALL).then_some(line.b as usize)
 }
 
-/// A line as the direct solver takes it.
+/// A row as the direct solver takes it.
 fn row(line: &Line) -> support::Row {
     support::Row { a: line.a as usize, b: other(line), normal: line.normal, offset: line.offset }
 }

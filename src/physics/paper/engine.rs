@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::kicks::Kicks;
-use super::run::{Paper, Search, Stage};
+use super::run::{Paper, TimeSearch, TrialStage};
 use super::trial_step::forward;
-use super::watchdog::Watch;
+use super::watchdog::Watchdog;
 use crate::physics::log::Log;
 use crate::physics::method::{Engine, Progress, Until};
 use crate::physics::model::{Model, Settings};
@@ -19,16 +19,16 @@ impl Engine for Paper {
         let mut paper = Paper {
             settings,
             end: state.clone(),
-            watch: Watch::at(state.t),
+            watch: Watchdog::at(state.t),
             start: state,
             kicks: Kicks::none(model.len()),
             next: Kicks::none(model.len()),
             finder: Finder::new(model),
             allowed: Vec::new(),
             trial: None,
-            stage: Stage::Complete,
+            stage: TrialStage::Complete,
             residue: 0.0,
-            search: Search::Whole,
+            search: TimeSearch::Whole,
             probes: Vec::new(),
             step: 0.0,
         };
@@ -46,7 +46,7 @@ impl Engine for Paper {
         let mut spent = 0;
         while spent < work {
             if self.trial.is_none() && self.is_calm(log) {
-                spent += self.cruise(model, log, goal, work - spent);
+                spent += self.complete_free_frames(model, log, goal, work - spent);
             } else {
                 spent += self.go_on(model, log);
             }
@@ -63,7 +63,7 @@ impl Engine for Paper {
     fn retune(&mut self, model: &Model, settings: Settings) {
         self.give_up(model);
         self.settings = settings;
-        self.watch = Watch::at(self.end.t);
+        self.watch = Watchdog::at(self.end.t);
     }
 
     fn state(&self, _: &Model) -> Cow<'_, State> {
@@ -115,7 +115,7 @@ impl Engine for Paper {
         // a state that was written down without its last row goes on as well, and is given up later, if it stalls
         let (impulses, count) = transient.split_at(transient.len().min(self.end.x.len()));
         self.next.replace_impulses(impulses);
-        self.watch = count.first().map_or(self.watch, |row| Watch::of_row(*row));
+        self.watch = count.first().map_or(self.watch, |row| Watchdog::of_row(*row));
     }
 
     fn hand_over(&self, model: &Model) -> State {
@@ -126,7 +126,8 @@ impl Engine for Paper {
         state
     }
 
-    /// The frame's end, what acts next, and the overlaps there; the start is a frame's inside, all else scratch.
+    /// A copy that keeps the frame's end, what acts next, and the overlaps there; the start is a frame's inside, all else
+    /// scratch.
     fn keep(&self) -> Paper {
         Paper {
             settings: self.settings,
@@ -137,7 +138,7 @@ impl Engine for Paper {
             finder: self.finder.kept(),
             allowed: Vec::new(),
             trial: None,
-            stage: Stage::Complete,
+            stage: TrialStage::Complete,
             residue: self.residue,
             search: self.search,
             probes: Vec::new(),

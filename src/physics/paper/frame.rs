@@ -1,13 +1,13 @@
 //! One frame: opened, ended by the dt or by the search for the collision time, closed with its responses.
 
-use super::run::{Paper, Search, Stage};
+use super::run::{Paper, TimeSearch, TrialStage};
 use super::trial_step::carry_velocities;
 use crate::physics::contact::Probe;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::overlap::Overlap;
 
-/// What rounding may add to the degree of a contact that must not sink further.
+/// What rounding may add to the degree of a contact that must not sink further, dimensionless.
 const ROUNDING: f64 = 1e-12;
 
 impl Paper {
@@ -18,7 +18,7 @@ impl Paper {
             None => self.open(model),
         };
         let work = self.compute(model, step);
-        if self.stage == Stage::Complete && self.residue == 0.0 {
+        if self.stage == TrialStage::Complete && self.residue == 0.0 {
             log.tallies.evaluations += self.finder.evaluations;
             if self.judge(step, log) {
                 self.close(model, log);
@@ -27,7 +27,7 @@ impl Paper {
         work
     }
 
-    /// Opens a frame: what was the end is the start, and what the last responses gave acts now.
+    /// Opens a frame: what was the end is the start, and what the last responses gave acts now. The first step to try, s.
     fn open(&mut self, model: &Model) -> f64 {
         let limit = self.accepted();
         self.allowed.clear();
@@ -35,7 +35,7 @@ impl Paper {
         std::mem::swap(&mut self.start, &mut self.end);
         std::mem::swap(&mut self.kicks, &mut self.next);
         carry_velocities(model, &self.next, &self.start, &mut self.end);
-        self.search = Search::Whole;
+        self.search = TimeSearch::Whole;
         self.probes.clear();
         self.attempt(self.settings.dt);
         self.settings.dt
@@ -47,10 +47,10 @@ impl Paper {
         let deepest = found.iter().map(|o| o.degree).fold(f64::NEG_INFINITY, f64::max);
         let too_deep = found.iter().any(|o| o.degree > self.limit(o));
         let (apart, deep) = match (self.search, too_deep) {
-            (Search::Whole, false) | (Search::Last, _) => return true,
-            (Search::Whole, true) => (0.0, step),
-            (Search::Between { deep, .. }, false) => (step, deep),
-            (Search::Between { apart, .. }, true) => (apart, step),
+            (TimeSearch::Whole, false) | (TimeSearch::Last, _) => return true,
+            (TimeSearch::Whole, true) => (0.0, step),
+            (TimeSearch::Between { deep, .. }, false) => (step, deep),
+            (TimeSearch::Between { apart, .. }, true) => (apart, step),
         };
         self.probes.push(Probe { step, degree: deepest });
         log.tallies.probes += 1;
@@ -59,16 +59,16 @@ impl Paper {
         }
         let (t, middle) = (self.start.t, 0.5 * (apart + deep));
         if t + middle == t + apart || t + middle == t + deep {
-            self.search = Search::Last;
+            self.search = TimeSearch::Last;
             self.attempt(deep);
         } else {
-            self.search = Search::Between { apart, deep };
+            self.search = TimeSearch::Between { apart, deep };
             self.attempt(middle);
         }
         false
     }
 
-    /// How deep an overlap may be at the end of this frame.
+    /// Largest degree that an overlap may have at the end of this frame, dimensionless.
     fn limit(&self, overlap: &Overlap) -> f64 {
         let limit = self.accepted();
         if overlap.degree <= limit {
@@ -91,7 +91,7 @@ impl Paper {
         self.watch.note(self.end.t - self.start.t, self.step < self.settings.dt, self.settings.dt, log);
     }
 
-    /// Whether nothing is left of any contact: such frames go by in [`Paper::cruise`](super::free_frames).
+    /// Whether nothing is left of any contact: such frames go by in [`Paper::complete_free_frames`](super::free_frames).
     pub(super) fn is_calm(&self, log: &Log) -> bool {
         self.finder.found.is_empty() && self.next.list().is_empty() && log.resting.is_empty()
     }

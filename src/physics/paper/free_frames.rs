@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::run::{Paper, Search, Stage};
+use super::run::{Paper, TimeSearch, TrialStage};
 use super::trial_step::{carry_velocities, fly};
 use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::log::Log;
@@ -11,20 +11,21 @@ use crate::physics::overlap::{any_near, evaluations};
 use crate::physics::requirements::PairSearch;
 use crate::physics::state::State;
 
-/// How far a flight may go.
+/// The step and the end of a flight without contacts.
 #[derive(Debug, Clone, Copy)]
 struct Leg {
+    /// Length of a frame, s.
     dt: f64,
-    /// Ends with the frame that reaches this time, s.
+    /// Time at which the flight ends with the frame that reaches it, s.
     goal: f64,
-    /// Ends after so many frames.
+    /// Number of frames after which the flight ends.
     most: u64,
 }
 
 impl Paper {
-    /// Whole frames, one after the other, as long as nothing touches; the work that took. The frame in which something
-    /// does is left in progress, its first trial state complete.
-    pub(super) fn cruise(&mut self, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
+    /// Completes whole frames, one after the other, as long as nothing touches; the work that took. The frame in which
+    /// something touches is left in progress, its first trial state complete.
+    pub(super) fn complete_free_frames(&mut self, model: &Model, log: &mut Log, goal: f64, work: u64) -> u64 {
         // So many spheres that a frame must be sliced, or that their cells outweigh what is saved here.
         if model.pairs == PairSearch::Cells {
             return self.go_on(model, log);
@@ -50,15 +51,15 @@ impl Paper {
             self.step = leg.dt;
         }
         if touched {
-            self.search = Search::Whole;
+            self.search = TimeSearch::Whole;
             self.probes.clear();
-            self.stage = Stage::Complete;
+            self.stage = TrialStage::Complete;
             self.trial = Some(leg.dt);
         }
         (frames + u64::from(touched)) * cost
     }
 
-    /// Frames of all spheres: how many, and whether the last trial state, not counted, needs a closer look.
+    /// Lets all spheres fly: how many frames, and whether the last trial state, not counted, needs a closer look.
     fn all_fly<F: Flight, const WALLS: bool, const PAIRS: bool>(
         &mut self,
         flight: F,
@@ -83,7 +84,7 @@ impl Paper {
         }
     }
 
-    /// Frames of a single sphere: how many, and whether the last trial state, not counted, needs a closer look.
+    /// Lets a single sphere fly: how many frames, and whether the last trial state, not counted, needs a closer look.
     fn one_flies<F: Flight, const WALLS: bool>(&mut self, flight: F, model: &Model, leg: Leg) -> (u64, bool) {
         let mut now = Point { x: self.end.x[0], v: self.end.v[0], t: self.end.t };
         let (mut frames, mut one_by_one) = (0, 0);
@@ -157,8 +158,8 @@ const BLOCK: u64 = 64;
 /// Frames of a single sphere flown before anything is asked, where there are no walls.
 const LONG_BLOCK: u64 = 4096;
 
-/// A block of frames; none if any of them has to be looked at, or reaches the goal. What is no number stays so, and a
-/// time that does not change never will, so that asking at the end is enough.
+/// State of a single sphere after a block of `size` frames; none if any of them has to be looked at, or reaches the goal.
+/// What is no number stays so, and a time that does not change never will, so that asking at the end is enough.
 #[inline(always)]
 fn block<F: Flight, const WALLS: bool>(flight: F, model: &Model, from: Point, leg: Leg, size: u64) -> Option<Point> {
     let mut now = from;

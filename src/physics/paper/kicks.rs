@@ -7,18 +7,18 @@ use glam::DVec3;
 /// What acts on one sphere during one frame, beside what always does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Kick {
-    /// Which.
+    /// Index of the sphere.
     pub(super) sphere: usize,
-    /// Transient: acts in full however short the frame is, N s.
+    /// Transient impulse, N s: it acts in full however short the frame is.
     pub(super) impulse: DVec3,
-    /// Support: acts for the frame's real length, m/s².
+    /// Acceleration by support, m/s²: it acts for the frame's real length.
     pub(super) support: DVec3,
 }
 
 /// The kicks of a frame, at most one per sphere.
 #[derive(Debug, Clone)]
 pub(super) struct Kicks {
-    /// Sorted by sphere once the responses are complete.
+    /// The kicks, sorted by sphere once the responses are complete.
     list: Vec<Kick>,
     /// Place in the list by sphere while it is filled; [`NOWHERE`] without a kick.
     place: Vec<u32>,
@@ -46,7 +46,7 @@ impl Kicks {
         &self.list
     }
 
-    /// Those of a range of spheres.
+    /// The kicks of a range of spheres.
     pub(super) fn of_spheres(&self, range: &Range<usize>) -> &[Kick] {
         let before = |sphere: usize| self.list.partition_point(|k| k.sphere < sphere);
         &self.list[before(range.start)..before(range.end)]
@@ -56,7 +56,7 @@ impl Kicks {
         self.list.clear();
     }
 
-    /// Takes these impulses, N s by sphere, instead of its own.
+    /// Replaces the impulses by these, N s by sphere.
     pub(super) fn replace_impulses(&mut self, impulses: &[DVec3]) {
         let support = |kicks: &Kicks, i: usize| kicks.of_spheres(&(i..i + 1)).first().map(|k| k.support);
         let kicks = impulses.iter().enumerate().filter_map(|(sphere, &impulse)| {

@@ -31,6 +31,17 @@
 //! A contact that is already deeper than the tolerance when a frame begins (the tolerance was lowered) may stay as
 //! deep as it is until it separates. All that follows is a function of t, x, v, the pending impulses and the settings,
 //! so that a run can be continued from those, bit for bit.
+//!
+//! | file | owns |
+//! |---|---|
+//! | `run`, `engine` | what the method keeps between calls; the method as the simulation drives it |
+//! | `frame` | one frame: opened, ended by dt or by the search for the collision time, closed |
+//! | `trial_step` | a trial state: `Forward(h)` from the frame's start, and the overlaps there |
+//! | `response`, `kicks` | the responses to the overlaps; what acts on single spheres in the next frame |
+//! | `free_frames` | frames in which nothing touches |
+//! | `stalls`, `watchdog` | what ends a run that cannot go on; whether frames go on bringing time |
+//!
+//! Begin with `run`, then `frame`.
 
 mod engine;
 mod frame;

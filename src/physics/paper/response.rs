@@ -8,9 +8,10 @@ use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::overlap::Overlap;
 
-/// A contact at the end of a frame, as the law sees it.
+/// A contact at the end of a frame, as the impact law sees it.
 struct Meeting {
     contact: Contact,
+    /// Normal velocity, m/s; negative: approaching.
     v_n: f64,
     /// What presses the first and the second sphere against the contact, m/s².
     press: [f64; 2],

@@ -1,7 +1,7 @@
 //! A run under way: what the method keeps between calls.
 
 use super::kicks::Kicks;
-use super::watchdog::Watch;
+use super::watchdog::Watchdog;
 use crate::physics::contact::Probe;
 use crate::physics::method::LARGEST_TOLERANCE;
 use crate::physics::model::{Model, Settings};
@@ -13,10 +13,10 @@ pub(in crate::physics) const SLACK: f64 = 1e-4;
 
 /// How far the search for the collision time has come; steps count from the frame's start, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Search {
+pub(super) enum TimeSearch {
     /// The whole step is being tried.
     Whole,
-    /// The collision lies between `apart` and `deep`.
+    /// The collision lies between the steps `apart` and `deep`, s.
     Between { apart: f64, deep: f64 },
     /// No time lies between the two any more: the later one is taken as it is.
     Last,
@@ -24,16 +24,16 @@ pub(super) enum Search {
 
 /// How much of a trial state has been computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum TrialStage {
     /// Spheres fly and meet walls, from this one on.
     Fly(usize),
     /// Pairs are searched.
     Meet,
-    /// All of it.
+    /// The trial state is complete.
     Complete,
 }
 
-/// The method at work.
+/// A run by `paper`.
 #[derive(Debug, Clone)]
 pub(crate) struct Paper {
     pub(super) settings: Settings,
@@ -52,24 +52,24 @@ pub(crate) struct Paper {
     /// The step being tried, s; none between frames.
     pub(super) trial: Option<f64>,
     /// How much of the trial state has been computed.
-    pub(super) stage: Stage,
-    /// 0 as long as every position of the trial state is finite.
+    pub(super) stage: TrialStage,
+    /// 0 as long as every position of the trial state is finite; else NaN.
     pub(super) residue: f64,
-    pub(super) search: Search,
+    pub(super) search: TimeSearch,
     /// Trial steps of the frame in progress.
     pub(super) probes: Vec<Probe>,
     /// Length of the last frame, s.
     pub(super) step: f64,
-    pub(super) watch: Watch,
+    pub(super) watch: Watchdog,
 }
 
 impl Paper {
-    /// The largest degree a frame may end with, for contacts without an allowance of their own.
+    /// The largest intersection degree a frame may end with, dimensionless, for contacts without an allowance of their own.
     pub(super) fn accepted(&self) -> f64 {
         self.settings.tolerance.min(LARGEST_TOLERANCE) + SLACK
     }
 
-    /// What follows the end of the last frame.
+    /// The kicks that follow the end of the last frame.
     pub(super) fn pending(&self) -> &Kicks {
         if self.trial.is_some() { &self.kicks } else { &self.next }
     }

@@ -1,7 +1,7 @@
 //! What ends a run that cannot go on: a state that is no longer finite, and time that stands still.
 
 use super::run::Paper;
-use super::watchdog::Watch;
+use super::watchdog::Watchdog;
 use crate::physics::contact::{Class, Contact, Kind};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
@@ -20,18 +20,18 @@ impl Paper {
             return self.quarantine(model);
         }
         if self.watch.stuck {
-            self.watch = Watch::at(self.end.t);
+            self.watch = Watchdog::at(self.end.t);
             return Some(Stall::step_too_small(self.end.t, self.settings.dt));
         }
         if self.trial.is_none() && self.watch.cut >= PATIENCE + model.len() as u64 {
             let stalled = self.end.t - self.watch.since < self.watch.owed;
-            self.watch = Watch::at(self.end.t);
+            self.watch = Watchdog::at(self.end.t);
             return stalled.then(|| self.shrinking(log));
         }
         None
     }
 
-    /// The frame in which a sphere leaves the range of numbers is given up before it is shown.
+    /// Gives up the frame in which a sphere leaves the range of numbers, before it is shown; the stall that this is.
     fn quarantine(&mut self, model: &Model) -> Option<Stall> {
         self.residue = 0.0;
         let State { x, v, .. } = &self.end;
@@ -44,7 +44,7 @@ impl Paper {
         Some(stall)
     }
 
-    /// Support that cannot hold, or bounces too low for the accepted overlap: each ends frames without end.
+    /// The stall of frames that shrink without end: support that cannot hold, or bounces too low for the accepted overlap.
     fn shrinking(&self, log: &Log) -> Stall {
         let bounces = log.contacts.iter().any(|contact| contact.class == Class::Collide);
         let (kind, cause) = match bounces {
@@ -66,7 +66,7 @@ impl Paper {
     }
 }
 
-/// "sphere 0 and wall 6".
+/// The bodies of a contact in words: "sphere 0 and wall 6".
 fn names(contact: &Contact) -> String {
     match contact.kind {
         Kind::Wall => format!("sphere {} and wall {}", contact.a, contact.b),

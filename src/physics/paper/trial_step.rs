@@ -8,14 +8,14 @@ use std::ops::Range;
 
 use super::Paper;
 use super::kicks::{Kick, Kicks};
-use super::run::Stage;
+use super::run::TrialStage;
 use crate::physics::free_flight::{Flight, with_flight};
 use crate::physics::model::{Model, Pull};
 use crate::physics::overlap::CHUNK;
 use crate::physics::state::State;
 
-/// `Forward(h)` of these spheres: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit Euler). Returns
-/// 0 if all new positions are finite, else NaN. In straight flight `end` holds the velocities already.
+/// Moves these spheres by `Forward(h)`, h in s: P += (ΣF_constant + support) h + J; v = P / m; x += v h (semi-implicit
+/// Euler). Returns 0 if all new positions are finite, else NaN. In straight flight `end` holds the velocities already.
 #[inline(always)]
 pub(super) fn fly<F: Flight>(flight: F, start: &State, end: &mut State, range: Range<usize>, h: f64) -> f64 {
     let (x0, v0) = (&start.x[range.clone()], &start.v[range.clone()]);
@@ -46,8 +46,8 @@ fn kick(model: &Model, kicks: &[Kick], start: &State, end: &mut State, h: f64) -
     residue
 }
 
-/// In straight flight: brings the velocities of these kicked spheres up to date in the state that comes next, all other
-/// velocities being the same in both.
+/// Brings the velocities of the kicked spheres up to date in the state that comes next, in straight flight: all other
+/// velocities are equal in both.
 pub(super) fn carry_velocities(model: &Model, kicks: &Kicks, now: &State, next: &mut State) {
     if model.pull == Pull::None {
         for kick in kicks.list() {
@@ -56,7 +56,7 @@ pub(super) fn carry_velocities(model: &Model, kicks: &Kicks, now: &State, next: 
     }
 }
 
-/// `Forward(h)` of all spheres.
+/// Moves all spheres by `Forward(h)`, h in s.
 pub(super) fn forward(model: &Model, kicks: &Kicks, start: &State, end: &mut State, h: f64) {
     with_flight!(model, flight => fly(flight, start, end, 0..model.len(), h));
     kick(model, kicks.list(), start, end, h);
@@ -66,7 +66,7 @@ impl Paper {
     /// Sets out to try a step, s.
     pub(super) fn attempt(&mut self, step: f64) {
         self.trial = Some(step);
-        self.stage = Stage::Fly(0);
+        self.stage = TrialStage::Fly(0);
         self.residue = 0.0;
         self.end.t = self.start.t + step;
         self.finder.begin();
@@ -75,24 +75,24 @@ impl Paper {
     /// Computes the next slice of the trial state; the work that took.
     pub(super) fn compute(&mut self, model: &Model, step: f64) -> u64 {
         match self.stage {
-            Stage::Fly(from) => {
+            TrialStage::Fly(from) => {
                 let range = from..model.len().min(from + CHUNK);
                 let work = (range.len() * (1 + model.faces.len())) as u64;
-                self.stage = if range.end < model.len() { Stage::Fly(range.end) } else { Stage::Meet };
+                self.stage = if range.end < model.len() { TrialStage::Fly(range.end) } else { TrialStage::Meet };
                 let (start, end) = (&self.start, &mut self.end);
                 self.residue += with_flight!(model, flight => fly(flight, start, end, range.clone(), step));
                 self.residue += kick(model, self.kicks.of_spheres(&range), start, end, step);
                 self.finder.walls(model, &start.x, &end.x, range);
                 work
             }
-            Stage::Meet => {
+            TrialStage::Meet => {
                 let (complete, work) = self.finder.pairs(model, &self.end.x);
                 if complete {
-                    self.stage = Stage::Complete;
+                    self.stage = TrialStage::Complete;
                 }
                 work
             }
-            Stage::Complete => 0,
+            TrialStage::Complete => 0,
         }
     }
 }

@@ -13,35 +13,35 @@ const QUIET_PACE: f64 = 1e-2;
 
 /// The watchdog's memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Watch {
+pub(super) struct Watchdog {
     /// When the present count began, s.
     pub(super) since: f64,
     /// Frames cut short by a search since then.
     pub(super) cut: u64,
-    /// Time they should have brought at least, s.
+    /// Time that the frames cut short should have brought at least, s.
     pub(super) owed: f64,
-    /// Whether a frame brought no time at all.
+    /// Whether some frame brought no time at all.
     pub(super) stuck: bool,
 }
 
-impl Watch {
-    /// Nothing counted yet at this time, s.
-    pub(super) fn at(time: f64) -> Watch {
-        Watch { since: time, cut: 0, owed: 0.0, stuck: false }
+impl Watchdog {
+    /// A memory that begins to count at `time`, s.
+    pub(super) fn at(time: f64) -> Watchdog {
+        Watchdog { since: time, cut: 0, owed: 0.0, stuck: false }
     }
 
-    /// What it has counted, as a row of a run's transient.
+    /// The count as a row of a run's transient.
     pub(super) fn row(&self) -> DVec3 {
         DVec3::new(self.since, self.cut as f64, self.owed)
     }
 
     /// The count that a row tells of.
-    pub(super) fn of_row(row: DVec3) -> Watch {
+    pub(super) fn of_row(row: DVec3) -> Watchdog {
         // a file may say any number, and counting must be able to go on from it
-        Watch { since: row.x, cut: (row.y as u64).min(1 << 52), owed: row.z, stuck: false }
+        Watchdog { since: row.x, cut: (row.y as u64).min(1 << 52), owed: row.z, stuck: false }
     }
 
-    /// Counts a frame that brought this much time, s, and was or was not cut short by a search.
+    /// Counts a frame of `elapsed` (s), of at most `dt` (s), that was or was not `cut` short by a search.
     pub(super) fn note(&mut self, elapsed: f64, cut: bool, dt: f64, log: &Log) {
         self.stuck |= elapsed <= 0.0;
         if cut {

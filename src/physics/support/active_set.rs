@@ -19,10 +19,11 @@ use super::problem::{Problem, ROUNDING};
 /// the set. What a sphere 1e12 times heavier than the one below it adds is 1e-6.
 pub(super) const DEPENDENT: f64 = 1e-11;
 
-/// Other such shares, where that one finds no answer: normals that differ by 1e-12 rad are told apart in the end, or are not.
+/// Other shares than [`DEPENDENT`], where that one finds no answer: normals that differ by 1e-12 rad are told apart in the
+/// end, or are not.
 pub(super) const OTHERWISE_DEPENDENT: [f64; 4] = [1e-13, 1e-9, 1e-14, 1e-7];
 
-/// Such a share while a guessed set is taken over: contacts left out by mistake join later.
+/// Share of a column that must be new while a guessed set is taken over: contacts left out by mistake join later.
 const DOUBTFUL: f64 = 1e-6;
 
 /// Weights below this count as no dependence when a contact takes another's place.
@@ -64,14 +65,15 @@ struct ActiveSet<'a> {
     holds: Vec<bool>,
     /// Contacts that rounding has refused since the last progress.
     refused: Vec<bool>,
-    /// 1; of a refused row = Σ cᵢ rowᵢ, 1 + Σ |cᵢ|: it inherits the rounding of the rows that it depends on.
+    /// Rounding of each row in units of its own: 1; of a refused row = Σ cᵢ rowᵢ, 1 + Σ |cᵢ|: it inherits the rounding of
+    /// the rows that it depends on.
     slack: Vec<f64>,
     factor: Factor,
-    /// λ √A_jj of every row.
+    /// Scaled multipliers λ √A_jj, by row.
     loads: Vec<f64>,
-    /// w, three numbers per body.
+    /// The vector w, three numbers per body.
     free: Vec<f64>,
-    /// The projection of w for the set as it is, in the same form.
+    /// The projection of w for the set as it is, three numbers per body.
     u: Vec<f64>,
 }
 
@@ -109,7 +111,7 @@ impl ActiveSet<'_> {
         [(row.a, part(row.a)), row.b.map_or((row.a, DVec3::ZERO), |b| (b, -part(b)))]
     }
 
-    /// g·u + c of a row, weighted.
+    /// The opening g·u + c of a row, weighted.
     fn opening(&self, row: usize, u: &[f64]) -> f64 {
         let at = |body: usize| DVec3::from_slice(&u[3 * body..]);
         let [p, q] = self.column(row);
@@ -247,13 +249,13 @@ impl ActiveSet<'_> {
         first
     }
 
-    /// u by body, unweighted.
+    /// The vectors u by body, unweighted.
     fn velocities(&self) -> Vec<DVec3> {
         let weights = self.problem.inverse_mass.iter();
         self.u.chunks_exact(3).zip(weights).map(|(u, w)| DVec3::from_slice(u) * w.sqrt()).collect()
     }
 
-    /// λ by row, unweighted.
+    /// The multipliers λ by row, unweighted.
     fn forces(&self) -> Vec<f64> {
         self.loads.iter().zip(&self.lengths).map(|(load, length)| load / length).collect()
     }

@@ -5,16 +5,12 @@ use glam::DVec3;
 use super::active_set::{self, DEPENDENT};
 use super::problem::{Problem, Row};
 use super::{enumerate, gauss_seidel};
+use crate::random::SplitMix64;
 
-/// SplitMix64 mapped to [−1, 1), the seed first.
+/// Numbers in [−1, 1).
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
+    let mut draw = SplitMix64::new(seed);
+    move || draw.centered()
 }
 
 /// A random island: every body in turn on an earlier one or on a wall, masses from 0.3 to 3 kg.

@@ -11,7 +11,7 @@ const SQUEEZED: f64 = 1e4;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) u: DVec3,
-    /// Row and m λ; a row may stand several times.
+    /// Row and push m λ, in units of u; a row may stand several times.
     pub(super) pushes: [(usize, f64); 3],
 }
 
@@ -22,7 +22,7 @@ impl Candidate {
     }
 }
 
-/// One contact: u keeps its tangential part. Corrected once, so that n·u + c is 0 to the last digit.
+/// The answer if one contact carries: u keeps its tangential part. Corrected once, so that n·u + c is 0 to the last digit.
 pub(super) fn one(problem: &Problem, i: usize) -> (DVec3, [(usize, f64); 3]) {
     let (free, row) = (problem.free[0], &problem.rows[i]);
     let push = -(row.normal.dot(free) + row.offset);

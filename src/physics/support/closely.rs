@@ -1,7 +1,7 @@
 //! The sets of `enumerate` for normals that nearly coincide or nearly oppose each other.
 //!
 //! n₁ × n₂ = n₁ × (n₂ ∓ n₁), and the difference of nearly equal numbers is exact (Sterbenz): so taken, the cross product
-//! keeps all its digits at any angle. Likewise n₁·(n₂ × n₃) = (n₁ ∓ n₂)·(n₂ × n₃). What rounding leaves of J u + c is
+//! keeps all its digits at any angle. So does n₁·(n₂ × n₃) = (n₁ ∓ n₂)·(n₂ × n₃). What rounding leaves of J u + c is
 //! taken back by two steps of iterative refinement.
 
 use glam::DVec3;
@@ -48,8 +48,8 @@ pub(super) fn candidate(problem: &Problem, set: &[usize]) -> Option<Candidate> {
     }
 }
 
-/// u with nᵢ·u = −cᵢ for the rows of `set`, from `along`, which moves none of them. `duals` are the vectors dᵢ with
-/// nᵢ·dⱼ = 1 for i = j and 0 otherwise.
+/// The answer u with nᵢ·u = −cᵢ for the rows of `set`, from `along`, which moves none of them. `duals` are the vectors dᵢ
+/// with nᵢ·dⱼ = 1 for i = j and 0 otherwise.
 fn held(problem: &Problem, set: &[usize], duals: &[DVec3], along: DVec3) -> Candidate {
     let mut u = along;
     for (&row, &dual) in set.iter().zip(duals) {
@@ -69,17 +69,17 @@ fn held(problem: &Problem, set: &[usize], duals: &[DVec3], along: DVec3) -> Cand
     Candidate { u, pushes }
 }
 
-/// p × q by the difference or the sum of the two, whichever is shorter.
+/// Cross product p × q, by the difference or the sum of the two, whichever is shorter.
 fn cross(p: DVec3, q: DVec3) -> DVec3 {
     p.cross(nearer(q, p))
 }
 
-/// q − p or q + p, whichever is shorter.
+/// Difference q − p or sum q + p, whichever is shorter.
 fn nearer(q: DVec3, p: DVec3) -> DVec3 {
     if p.dot(q) < 0.0 { q + p } else { q - p }
 }
 
-/// p·(q × r) of three normals, whose cross products are given, by the two that are nearest to a line.
+/// Volume p·(q × r) of three normals, whose cross products are given, by the two that are nearest to a line.
 fn volume([p, q, r]: [DVec3; 3], faces: [DVec3; 3]) -> f64 {
     // the third vector may be changed by any multiple of the other two
     let ways = [(nearer(p, q), faces[0]), (nearer(q, r), faces[1]), (nearer(r, p), faces[2])];

@@ -18,7 +18,7 @@ use super::problem::{Problem, ROUNDING};
 /// Most contacts for which all sets are tried at once (92 sets at 8).
 pub(super) const LIMIT: usize = 8;
 
-/// Most contacts for which they are tried if nothing else finds an answer (43 745 sets at 64).
+/// Most contacts for which all sets are tried if nothing else finds an answer (43 745 sets at 64).
 pub(super) const LAST_RESORT: usize = 64;
 
 /// Multipliers and u of a problem of one body.
@@ -43,7 +43,8 @@ pub(super) fn solve(problem: &Problem) -> (Vec<f64>, DVec3, usize) {
     (multipliers, best.u, tried)
 }
 
-/// The first set of contacts whose violation is rounding (at most 1), or else the one of the least; and how many were tried.
+/// The first set of contacts whose violation is rounding (at most 1), or else the one of the least; and how many were
+/// tried.
 fn best(problem: &Problem, of: &dyn Fn(&[usize]) -> Option<Candidate>) -> (Option<(Candidate, f64)>, usize) {
     let mut best: Option<(Candidate, f64)> = None;
     let mut tried = 0;
@@ -82,7 +83,7 @@ fn candidate(problem: &Problem, set: &[usize]) -> Option<Candidate> {
     Some(Candidate { u, pushes })
 }
 
-/// Two contacts: u = t (t·u₀)/t² along the crease t = n₁ × n₂, plus what the offsets ask across it.
+/// The answer if two contacts carry: u = t (t·u₀)/t² along the crease t = n₁ × n₂, plus what the offsets ask across it.
 fn two(problem: &Problem, i: usize, j: usize) -> Option<(DVec3, [(usize, f64); 3])> {
     let (free, p, q) = (problem.free[0], &problem.rows[i], &problem.rows[j]);
     let crease = p.normal.cross(q.normal);
@@ -90,14 +91,14 @@ fn two(problem: &Problem, i: usize, j: usize) -> Option<(DVec3, [(usize, f64); 3
     if square <= ROUNDING * ROUNDING {
         return None;
     }
-    // d₁ = (n₂ × t)/t² has n₁·d₁ = 1, n₂·d₁ = 0, and lies across the crease; d₂ likewise.
+    // d₁ = (n₂ × t)/t² has n₁·d₁ = 1, n₂·d₁ = 0, and lies across the crease; so does d₂.
     let (d1, d2) = (q.normal.cross(crease) / square, crease.cross(p.normal) / square);
     let u = crease * (crease.dot(free) / square) - (d1 * p.offset + d2 * q.offset);
     let change = u - free;
     Some((u, [(i, d1.dot(change)), (j, d2.dot(change)), (i, 0.0)]))
 }
 
-/// Three contacts: they fix u; it is 0 if no offset asks otherwise.
+/// The answer if three contacts carry: they fix u, which is 0 if no offset asks otherwise.
 fn three(problem: &Problem, i: usize, j: usize, k: usize) -> Option<(DVec3, [(usize, f64); 3])> {
     let [p, q, r] = [i, j, k].map(|row| &problem.rows[row]);
     let (qr, rp, pq) = (q.normal.cross(r.normal), r.normal.cross(p.normal), p.normal.cross(q.normal));

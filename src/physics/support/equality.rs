@@ -20,12 +20,13 @@ pub fn bind(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, 
     }
 }
 
-/// A row of which less than this share is new is left out where only rounding is to be put right: to close what rounding has
-/// left of a gap, 1e-16 m, between two walls whose normals oppose each other within 1e-9 would move a sphere by 1e-7 m
+/// A row of which less than this share is new is left out where only rounding is to be put right: to close what rounding
+/// has left of a gap, 1e-16 m, between two walls whose normals oppose each other within 1e-9 would move a sphere by 1e-7 m
 /// across them.
 const NEARLY_DEPENDENT: f64 = 1e-5;
 
-/// [`bind`] to put right what rounding has left of rows that hold already: u is changed by no more than 1e5 times that.
+/// Solves as [`bind`] does to put right what rounding has left of rows that hold already: u is changed by no more than 1e5
+/// times that.
 pub fn restore(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> Vec<DVec3> {
     match rows {
         [row] => bind_one(inverse_mass, free, row).0,
@@ -36,8 +37,8 @@ pub fn restore(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> Vec<DVec3>
     }
 }
 
-/// [`restore`] of places and velocities (m/s) at once: the shifts (m) that the rows with their offsets, gaps in m, ask for, and
-/// the velocities that they leave with none.
+/// Restores places and velocities (m/s) at once, as [`restore`] does: the shifts (m) that the rows with their offsets, gaps
+/// in m, ask for, and the velocities that they leave with none.
 pub fn restore_both(inverse_mass: &[f64], velocity: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<DVec3>) {
     let still: Short<DVec3> = Short::from_elem(DVec3::ZERO, velocity.len());
     let level = |row: &Row| Row { offset: 0.0, ..*row };
@@ -54,7 +55,7 @@ pub fn restore_both(inverse_mass: &[f64], velocity: &[DVec3], rows: &[Row]) -> (
     }
 }
 
-/// [`bind`] for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.
+/// Solves as [`bind`] does for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.
 fn bind_one(inverse_mass: &[f64], free: &[DVec3], row: &Row) -> (Vec<DVec3>, Vec<f64>) {
     let mut u = free.to_vec();
     let weight = inverse_mass[row.a] + row.b.map_or(0.0, |b| inverse_mass[b]);
@@ -101,7 +102,7 @@ fn bind_all(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], dependent: f64) 
     (u, multipliers)
 }
 
-/// M^−½ Jᵀ / √A of one row: a unit vector.
+/// The column M^−½ Jᵀ / √A of one row: a unit vector.
 fn column(inverse_mass: &[f64], row: &Row, length: f64) -> Vec<f64> {
     let mut column = vec![0.0; 3 * inverse_mass.len()];
     let mut set = |body: usize, normal: DVec3| {
@@ -118,15 +119,12 @@ fn column(inverse_mass: &[f64], row: &Row, length: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
-    /// SplitMix64 mapped to [−1, 1).
-    fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-        move || {
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
+    /// Numbers in [−1, 1).
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut draw = SplitMix64::new(seed);
+        move || draw.centered()
     }
 
     #[test]

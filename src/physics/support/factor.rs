@@ -17,7 +17,7 @@ pub(super) struct Factor {
 pub(super) enum Append {
     /// The factor has grown by it.
     Added,
-    /// It depends on the columns already there: column = Σ cᵢ columnᵢ with these c. The factor is as before.
+    /// The column depends on those already there: column = Σ cᵢ columnᵢ with these c. The factor is as before.
     Dependent(Vec<f64>),
 }
 
@@ -66,7 +66,7 @@ impl Factor {
         parts
     }
 
-    /// Q y.
+    /// The product Q y.
     pub(super) fn combine(&self, y: &[f64], length: usize) -> Vec<f64> {
         let mut sum = vec![0.0; length];
         for (q, part) in self.q.iter().zip(y) {

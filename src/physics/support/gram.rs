@@ -30,9 +30,9 @@ const FEW: usize = 16;
 /// Squares of what is new of a column below which a further step of refinement is worth its cost.
 const DOUBTFUL: f64 = 1e-3;
 
-/// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0; u by body and λ by row. A row of which less than 1e-5 is new is left out, with
-/// λ = 0, if `leaves_out`; otherwise only one that depends on others and is met with them. Where more is left of one, or
-/// among unlike masses, there is no answer.
+/// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0; u by body and λ by row. A row of which less than 1e-5 is new is left out,
+/// with λ = 0, if `leaves_out`; otherwise only one that depends on others and is met with them. Where more is left of one,
+/// or among unlike masses, there is no answer.
 pub(super) fn bind(
     inverse_mass: &[f64],
     free: &[DVec3],
@@ -53,13 +53,13 @@ pub(super) fn bind(
 /// A row that holds.
 #[derive(Debug, Clone, Copy)]
 struct Held {
-    /// Its index.
+    /// Index of the row.
     row: usize,
-    /// √A of its diagonal before scaling.
+    /// √A of the row's diagonal before scaling.
     length: f64,
-    /// The first row that it couples with, by place.
+    /// The first row that the row couples with, by place.
     first: usize,
-    /// Where its entries begin.
+    /// Where the row's entries begin.
     start: usize,
 }
 
@@ -67,7 +67,7 @@ struct Held {
 pub(super) struct Skyline {
     held: SmallVec<[Held; FEW]>,
     entries: SmallVec<[f64; FEW * (FEW + 1) / 2]>,
-    /// Least square of what was new of a column.
+    /// Least square of what was new of a column so far.
     least: f64,
     /// Rows that were left out.
     left_out: SmallVec<[usize; FEW]>,
@@ -81,7 +81,7 @@ impl Skyline {
         if light > LIKE_MASSES * heavy { None } else { Skyline::of(inverse_mass, rows, leaves_out) }
     }
 
-    /// u by body and λ by row, for the rows of the factor with any offsets.
+    /// Vectors u by body and multipliers λ by row, for the rows of the factor with any offsets.
     pub(super) fn bind(&self, inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<f64>) {
         let mut u = free.to_vec();
         let mut multipliers = vec![0.0; rows.len()];
@@ -182,7 +182,7 @@ impl Skyline {
         }
     }
 
-    /// The entries of a row left of the diagonal, and that.
+    /// The entries of a row left of the diagonal, and the diagonal.
     fn row(&self, place: usize) -> (&[f64], f64) {
         let held = self.held[place];
         let count = place - held.first;

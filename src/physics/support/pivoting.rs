@@ -1,7 +1,7 @@
 //! Block principal pivoting: guess which contacts carry, solve for those alone, exchange all that are wrong at once.
 //!
-//! Source: Portugal, Júdice, Vicente, Mathematics of Computation 63 (1994), 625; of those that are wrong only the last one is
-//! exchanged where all together lead nowhere (Murty). From the loads of a moment ago it needs a step or two, each by the
+//! Source: Portugal, Júdice, Vicente, Mathematics of Computation 63 (1994), 625; of those that are wrong only the last one
+//! is exchanged where all together lead nowhere (Murty). From the loads of a moment ago it needs a step or two, each by the
 //! skyline of [`gram`](super::gram). It answers where it comes to an end soon and its contacts are independent; the active
 //! set does the rest.
 
@@ -17,10 +17,11 @@ const PATIENCE: u32 = 3;
 /// Exchanges in all: whatever needs more is no case for this method.
 const MOST: usize = 40;
 
-/// u by body, multipliers by row, and the exchanges that it took.
+/// Vectors u by body, multipliers by row, and the number of exchanges that the answer took.
 pub(super) type Answer = (Vec<DVec3>, Vec<f64>, usize);
 
-/// Solves the problem from the multipliers `guess` (≥ 0; empty or all 0: from what approaches); none where it leads nowhere.
+/// Solves the problem from the multipliers `guess` (≥ 0; empty or all 0: from what approaches); none where it leads
+/// nowhere.
 pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Option<Answer> {
     let count = problem.rows.len();
     let rounding: Short<f64> = (0..count).map(|row| ROUNDING * problem.size(row)).collect();

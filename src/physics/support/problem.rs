@@ -28,7 +28,7 @@ pub struct Row {
     pub b: Option<usize>,
     /// Unit normal, from `b` (or the wall) to `a`.
     pub normal: DVec3,
-    /// c in J u + c ≥ 0, in units of u (m/s or m/s²).
+    /// Offset c in J u + c ≥ 0, in units of u (m/s or m/s²).
     pub offset: f64,
 }
 
@@ -37,7 +37,7 @@ pub struct Row {
 pub(super) struct Problem {
     pub(super) inverse_mass: Short<f64>,
     pub(super) free: Short<DVec3>,
-    /// In local indices.
+    /// Rows, in local indices.
     pub(super) rows: Short<Row>,
     /// √(Σ m u₀²): every projection is smaller, so rounding of a body's u is this times ulp/√m.
     pub(super) weight: f64,
@@ -84,7 +84,7 @@ impl Problem {
         (0..force.len()).map(|body| self.free[body] + force[body] * self.inverse_mass[body]).collect()
     }
 
-    /// (J u + c) of one row: how fast that contact opens.
+    /// The opening J u + c of one row, in units of u.
     pub(super) fn opening(&self, row: usize, u: &[DVec3]) -> f64 {
         let row = &self.rows[row];
         let relative = u[row.a] - row.b.map_or(DVec3::ZERO, |b| u[b]);

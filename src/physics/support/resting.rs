@@ -27,8 +27,8 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// k = |v_t|² / radius, m/s², for relative velocity `v` (m/s) at a contact of unit `normal`: v_t is the part of
-    /// `v` across the normal and, on an edge, across the edge.
+    /// The term k = |v_t|² / radius, m/s², for relative velocity `v` (m/s) at a contact of unit `normal`: v_t is the part
+    /// of `v` across the normal and, on an edge, across the edge.
     pub fn curvature_term(self, normal: DVec3, v: DVec3) -> f64 {
         let across = v - normal * normal.dot(v);
         match self {
@@ -55,7 +55,7 @@ pub struct Resting {
 /// Bodies by index; the three slices have equal lengths.
 #[derive(Debug, Clone, Copy)]
 pub struct Bodies<'a> {
-    /// 1/m, 1/kg, > 0.
+    /// Inverse masses, 1/kg, > 0.
     pub inverse_mass: &'a [f64],
     /// Velocities, m/s.
     pub velocity: &'a [DVec3],
@@ -79,7 +79,7 @@ pub fn accelerations(bodies: Bodies, contacts: &[Resting], guess: &[f64]) -> Sol
     solve_from(bodies.inverse_mass, bodies.applied, &rows, guess)
 }
 
-/// Both problems, one after the other.
+/// The solutions of both problems.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
     /// v⁺ and Λ, m/s and N s.
@@ -93,11 +93,11 @@ pub struct Held {
 /// What a contact does after both problems are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fate {
-    /// It carries a load: λ > 0.
+    /// The contact carries a load: λ > 0.
     Loaded,
-    /// It stays closed without carrying anything: redundant, or unpressed.
+    /// The contact stays closed without carrying anything: redundant, or unpressed.
     Idle,
-    /// It opens: J v⁺ > 0, or J a + k > 0 beyond rounding.
+    /// The contact opens: J v⁺ > 0, or J a + k > 0 beyond rounding.
     Opening,
 }
 

@@ -20,15 +20,15 @@ pub enum Solver {
 /// What became of one island.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
-    /// Contacts in the island.
+    /// Number of contacts in the island.
     pub contacts: usize,
     /// The solver that gave the answer.
     pub solver: Solver,
-    /// Its passes, sweeps, or sets tried.
+    /// Number of the solver's passes, sweeps, or sets tried.
     pub passes: usize,
     /// Largest |min(J u + c, λ A_jj)| over the contacts, in units of u, before rounding was cleared away.
     pub residual: f64,
-    /// Whether that is no more than rounding. If not, the answer must not be trusted.
+    /// Whether the residual is no more than rounding. If not, the answer must not be trusted.
     pub converged: bool,
 }
 
@@ -37,11 +37,11 @@ pub struct Report {
 pub struct Solution {
     /// The bodies that some contact names, ascending.
     pub bodies: Vec<usize>,
-    /// u of those bodies, m/s or m/s²; exactly 0 where less than rounding was left.
+    /// Vectors u of those bodies, m/s or m/s²; exactly 0 where less than rounding was left.
     pub vectors: Vec<DVec3>,
-    /// Of those bodies, the size below which a component of u is rounding.
+    /// Size below which a component of u is rounding, by body, in units of u.
     pub rounding: Vec<f64>,
-    /// λ of every contact, ≥ 0, N s or N.
+    /// Multipliers λ of all contacts, ≥ 0, N s or N.
     pub multipliers: Vec<f64>,
     /// One report per island, in the order of [`islands`](super::islands).
     pub reports: Vec<Report>,
@@ -58,7 +58,7 @@ impl Solution {
         self.reports.iter().map(|report| report.residual).fold(0.0, f64::max)
     }
 
-    /// u of `body`; none if no contact names it.
+    /// The vector u of `body`, m/s or m/s²; none if no contact names the body.
     pub fn vector(&self, body: usize) -> Option<DVec3> {
         self.place(body).map(|place| self.vectors[place])
     }
@@ -67,7 +67,7 @@ impl Solution {
         self.bodies.binary_search(&body).ok()
     }
 
-    /// J u + c of `row`, exactly 0 if it is less than rounding.
+    /// The opening J u + c of `row`, in units of u; exactly 0 if it is less than rounding.
     pub(super) fn opening(&self, row: &Row) -> f64 {
         let of = |body: usize| self.place(body).map_or((DVec3::ZERO, 0.0), |p| (self.vectors[p], self.rounding[p]));
         let ((u, rounding), (w, more)) = (of(row.a), row.b.map_or((DVec3::ZERO, 0.0), of));

@@ -31,8 +31,8 @@ pub fn solve(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) 
     })
 }
 
-/// [`solve`] where the loads of a moment ago, `guess`, are nearly those of now: a step or two of pivoting confirm them. The
-/// same u, but for its last bits.
+/// Solves as [`solve`] does where the loads of a moment ago, `guess`, are nearly those of now: a step or two of pivoting
+/// confirm them. Equal u, but for its last bits.
 pub(super) fn solve_from(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) -> Solution {
     by_islands(inverse_mass, free, rows, |problem, at| {
         let guess: Short<f64> = at.iter().map(|&row| guess.get(row).map_or(0.0, |&g| g.max(0.0))).collect();
@@ -105,13 +105,13 @@ impl Part {
         Part { u, multipliers: swept.multipliers, solver: Solver::GaussSeidel, passes: swept.sweeps, slack: Vec::new() }
     }
 
-    /// One body on some walls.
+    /// The answer of one body on some walls.
     fn of_single(problem: &Problem) -> Part {
         let (multipliers, u, passes) = enumerate::solve(problem);
         Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new() }
     }
 
-    /// By pivoting, where that ends soon and leaves no more than rounding.
+    /// The answer by pivoting, where that ends soon and leaves no more than rounding.
     fn pivoted(problem: &Problem, guess: &[f64]) -> Option<Part> {
         if problem.rows.len() == 1 || problem.free.len() == 1 && problem.rows.len() <= enumerate::LIMIT {
             return None; // closed forms
@@ -121,8 +121,8 @@ impl Part {
         (part.worst(problem) <= 1.0).then_some(part)
     }
 
-    /// The active set; where it does not come to an end, or leaves more than rounding, again with other ideas of what a
-    /// dependent contact is, since none suits every set of contacts. The best answer counts.
+    /// The answer by the active set; where it does not come to an end, or leaves more than rounding, again with other ideas
+    /// of what a dependent contact is, since none suits every set of contacts. The best answer counts.
     fn direct(problem: &Problem, guess: &[f64]) -> Part {
         let of = |guess: &[f64], dependent: f64| {
             let found = active_set::solve(problem, guess, dependent);
@@ -164,7 +164,7 @@ impl Part {
         if self.solver == Solver::GaussSeidel { 2.0 * PRECISION } else { 2.0 * ROUNDING }
     }
 
-    /// One pair: λ = max(0, −(J u₀ + c)/A), corrected once for what rounding left.
+    /// The answer of one pair: λ = max(0, −(J u₀ + c)/A), corrected once for what rounding left.
     fn of_one(problem: &Problem) -> Part {
         let mut multipliers = vec![0.0];
         for _ in 0..2 {

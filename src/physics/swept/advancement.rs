@@ -11,7 +11,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::separation::{Gap, Pair, Separation, Wall};
+use super::separation::{Gap, PairSeparation, Separation, WallSeparation};
 use crate::physics::contact::Probe;
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::rounding::{CLOSING, HOP};
@@ -31,8 +31,9 @@ const PATIENCE: usize = 200;
 /// The detector of `swept`, and what it has looked at since it last told.
 #[derive(Debug, Clone)]
 pub(crate) struct ConservativeAdvancement {
-    /// Deepest overlap accepted, dimensionless.
+    /// Deepest intersection degree accepted, dimensionless.
     tolerance: f64,
+    /// Looks at two bodies not yet told.
     evaluations: Cell<u64>,
     /// Close looks not yet told: when, s, and the degree seen.
     probes: RefCell<Vec<(f64, f64)>>,
@@ -57,11 +58,11 @@ impl Detector for ConservativeAdvancement {
     }
 
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
-        self.search(&Wall { path, r, face }, span)
+        self.search(&WallSeparation { path, r, face }, span)
     }
 
     fn pair(&self, a: &Path, b: &Path, reach: f64, span: Span) -> Option<Due> {
-        let pair = Pair::new(a, b, reach);
+        let pair = PairSeparation::new(a, b, reach);
         if pair.parts_for_good() {
             self.count();
             return None;
@@ -88,7 +89,7 @@ impl Detector for ConservativeAdvancement {
 }
 
 impl ConservativeAdvancement {
-    /// When two bodies are next in contact, or when to look again.
+    /// When two bodies next touch while approaching, or when to look again.
     fn search(&self, bodies: &impl Separation, span: Span) -> Option<Due> {
         let near = NEAR * bodies.reach();
         let (mut s, mut seen) = (0.0, bodies.at(0.0));
@@ -121,7 +122,7 @@ impl ConservativeAdvancement {
         Some(Due { after: s, is_contact: false })
     }
 
-    /// How far to go from a narrow gap, or from an overlap that opens; none if nothing will come of it.
+    /// How far to go from a narrow gap, or from an overlap that opens, s; none if the bodies do not come together again.
     fn close_step(&self, bodies: &impl Separation, seen: Gap) -> Option<f64> {
         let Gap { gap, v_n, a_n } = seen;
         if gap > 0.0 {
@@ -135,7 +136,8 @@ impl ConservativeAdvancement {
         Some(v_n / pull)
     }
 
-    /// The contact within a step (s from now) from outside to deeper than the tolerance.
+    /// The time of the contact, s from now, within a step from `outside` (s) to `inside` (s), where the overlap is deeper
+    /// than the tolerance.
     fn halve(&self, bodies: &impl Separation, now: f64, [mut outside, mut inside]: [f64; 2]) -> f64 {
         loop {
             let middle = 0.5 * (outside + inside);
@@ -164,13 +166,14 @@ impl ConservativeAdvancement {
     }
 }
 
-/// How far to go from a wide gap: to where it may be half of what counts as near.
+/// How far to go from a wide gap, s: to where the gap may be half of `near` (m).
 fn wide_step(seen: Gap, near: f64) -> Option<f64> {
     quadratic_fall([seen.gap - 0.5 * near, seen.v_n, 0.5 * seen.a_n])
 }
 
-/// Whether the gap is about to shrink. Where only rounding says so, what presses decides: of three spheres in a row that
-/// have stopped approaching each other, rounding would otherwise have the outer two push the middle one to and fro.
+/// Whether the gap is about to shrink `s` seconds from now. Where only rounding says so, what presses decides: of three
+/// spheres in a row that have stopped approaching each other, rounding would otherwise have the outer two push the middle
+/// one to and fro.
 fn closes(bodies: &impl Separation, s: f64, seen: Gap) -> bool {
     seen.v_n < 0.0 && seen.v_n < -CLOSING * bodies.speed(s) || seen.v_n <= 0.0 && bodies.acceleration(s) < 0.0
 }

@@ -2,10 +2,13 @@
 //! what breaks it is not.
 //!
 //! Flight is ballistic, x += v h + a h²/2 from each sphere's own last event, so that dt leaves the error: it sets the
-//! frames that are shown and nothing else. A contact is searched over the whole flight instead of at the end of a step,
-//! so that nothing tunnels at any speed: the search steps only as far as no overlap deeper than half the tolerance can
-//! be, and halves a step that rounding has made too long (`advance`). Responses come one after the other, and what rests
-//! is held up island by island, as in every method that knows the order of its events.
+//! frames that are shown and nothing else. A contact is searched over the whole flight instead of at the end of a step, so
+//! that nothing tunnels at any speed: the search steps only as far as no overlap deeper than half the tolerance can be, and
+//! halves a step that rounding has made too long (`advancement`). Responses come one after the other, and what rests is
+//! held up island by island, as in every method that knows the order of its events.
+//!
+//! All of it is the engine of `events` but for `advancement`, the search for a contact, and `separation`, what a look at
+//! two bodies sees.
 
 mod advancement;
 mod separation;
@@ -15,10 +18,10 @@ use super::method::Description;
 use super::model::Method;
 use advancement::ConservativeAdvancement;
 
-/// The method at work.
+/// A run by `swept`.
 pub(super) type Swept = Resumable<ConservativeAdvancement>;
 
-/// What the method is.
+/// What `swept` is.
 pub(super) const DESCRIPTION: Description = Description {
     method: Method::Swept,
     summary: "ballistic frames; the first contact searched over the whole flight by safe steps and bisection, accepted \

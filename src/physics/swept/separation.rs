@@ -10,7 +10,7 @@ use crate::physics::wall_parts::part_ahead;
 /// Two bodies at one instant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
-    /// m; negative: overlapping.
+    /// Gap, m; negative: overlap.
     pub(super) gap: f64,
     /// Normal velocity, m/s, in the response's own expression.
     pub(super) v_n: f64,
@@ -19,11 +19,11 @@ pub(super) struct Gap {
     pub(super) a_n: f64,
 }
 
-/// Two bodies on their ways.
+/// Two bodies that move freely from now on.
 pub(super) trait Separation {
-    /// How they are `s` seconds from now.
+    /// Gap, normal velocity and acceleration `s` seconds from now.
     fn at(&self, s: f64) -> Gap;
-    /// How fast v_n grows just from then on, m/s², curvature included.
+    /// Rate at which v_n grows just from `s` seconds from now on, m/s², curvature included.
     fn acceleration(&self, s: f64) -> f64;
     /// What the degree is measured by, m: r, or r₁ + r₂.
     fn reach(&self) -> f64;
@@ -31,18 +31,18 @@ pub(super) trait Separation {
     fn size(&self) -> f64;
     /// Largest acceleration along any normal, m/s².
     fn max_acceleration(&self) -> f64;
-    /// Size of the velocities that v_n is a difference of, m/s.
+    /// Size of the velocities that v_n is a difference of `s` seconds from now, m/s.
     fn speed(&self, s: f64) -> f64;
 }
 
 /// A sphere of radius `r` (m) and a wall.
-pub(super) struct Wall<'a> {
+pub(super) struct WallSeparation<'a> {
     pub(super) path: &'a Path,
     pub(super) r: f64,
     pub(super) face: &'a Face,
 }
 
-impl Separation for Wall<'_> {
+impl Separation for WallSeparation<'_> {
     fn at(&self, s: f64) -> Gap {
         let touch = touch(self.face, self.path.at(s), self.r);
         let v_n = normal_velocity(self.path.velocity(s), DVec3::ZERO, touch.normal);
@@ -74,16 +74,16 @@ impl Separation for Wall<'_> {
 }
 
 /// Two spheres whose radii sum to `reach` (m).
-pub(super) struct Pair<'a> {
+pub(super) struct PairSeparation<'a> {
     paths: [&'a Path; 2],
-    /// That of the first centre seen from the second.
+    /// Path of the first centre relative to the second.
     path: Path,
     reach: f64,
 }
 
-impl<'a> Pair<'a> {
-    pub(super) fn new(a: &'a Path, b: &'a Path, reach: f64) -> Pair<'a> {
-        Pair { paths: [a, b], path: a.relative_to(b), reach }
+impl<'a> PairSeparation<'a> {
+    pub(super) fn new(a: &'a Path, b: &'a Path, reach: f64) -> PairSeparation<'a> {
+        PairSeparation { paths: [a, b], path: a.relative_to(b), reach }
     }
 
     /// Whether two spheres that part go on doing so: without relative acceleration, distances are convex in time. The
@@ -93,7 +93,7 @@ impl<'a> Pair<'a> {
     }
 }
 
-impl Separation for Pair<'_> {
+impl Separation for PairSeparation<'_> {
     fn at(&self, s: f64) -> Gap {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let distance = x.length();
@@ -104,9 +104,7 @@ impl Separation for Pair<'_> {
     fn acceleration(&self, s: f64) -> f64 {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let distance = x.length();
-        let normal = x / distance;
-        let across = v - normal * pair_normal_velocity(x, v);
-        normal.dot(self.path.a) + across.length_squared() / distance
+        Path { x, v, a: self.path.a }.distance_acceleration(x / distance, distance)
     }
 
     fn reach(&self) -> f64 {

@@ -13,7 +13,7 @@ struct Model {
     /// Time that it takes each way.
     delay: Duration,
     answers: bool,
-    /// From when on it carries nothing.
+    /// Time from which on the line carries nothing.
     free: Duration,
     /// When answers will arrive.
     replies: VecDeque<Duration>,
@@ -117,7 +117,7 @@ impl Run {
         (self.model.shown.len() - before) / 10
     }
 
-    /// From the key to its picture on the screen, both ways; the simulation answers after three milliseconds.
+    /// The time from a key to its picture on the screen, both ways; the simulation answers after three milliseconds.
     fn press(&mut self) -> Duration {
         let pressed = self.now;
         self.go(self.model.delay);

@@ -1,4 +1,4 @@
-//! Keyframes where one goes back and forth: put there on the way, or while nothing else is to do.
+//! Keyframes near the frame shown: kept on the way, or while nothing else is to do.
 
 use super::{CLOSE, Course, RECENT, scout::Scout};
 
@@ -18,7 +18,7 @@ impl Course {
         }
     }
 
-    /// With nothing else to do: sees to it that the last frames before the one shown are a short way off, for about
+    /// Sees to it, with nothing else to do, that the last frames before the one shown are a short way off, for about
     /// `work`; whether there is more to do. `clock` tells the time, s.
     pub(in crate::worker) fn scout(&mut self, work: u64, clock: impl Fn() -> f64) -> bool {
         let shown = self.frame();

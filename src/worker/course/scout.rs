@@ -13,18 +13,20 @@ const SCOUTING: f64 = 2e-3;
 pub(super) struct Scout {
     run: Simulation,
     changes: usize,
-    /// The frame to be kept, and the one that is shown.
+    /// The frame to be kept.
     target: u64,
+    /// The frame that is shown.
     pub(super) shown: u64,
-    /// Counts its work.
+    /// Counts the work of the scout.
     meter: Meter,
-    /// Whether no frame is in progress, and what acts over it from the one before.
+    /// Whether no frame is in progress.
     whole: bool,
+    /// What acts over the present frame from the one before.
     acting: Acting,
 }
 
 impl Scout {
-    /// From a keyframe toward a frame, while another is shown.
+    /// A scout from a keyframe toward the frame `target`, while the frame `shown` is shown.
     pub(super) fn toward(target: u64, shown: u64, from: &Kept) -> Scout {
         let run = from.run();
         let (meter, changes, acting) = (Meter::of(&run), from.changes, from.acting.clone());

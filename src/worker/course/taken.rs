@@ -25,7 +25,8 @@ impl Course {
         Some((scene, to_the_bit))
     }
 
-    /// Makes the recording's changes that are due here, where the next frame was tried in vain or not; whether there were any.
+    /// Makes the recording's changes that are due here, where the next frame was tried in vain or not; whether there were
+    /// any.
     pub(super) fn make_due(&mut self, stalled: bool) -> bool {
         let before = self.changes.len();
         let due = |course: &Course, stalled| {
@@ -40,7 +41,7 @@ impl Course {
         self.changes.len() > before
     }
 
-    /// Beyond the end of the recording that was followed nothing is compared.
+    /// Leaves the recording that was followed: beyond its end nothing is compared.
     pub(super) fn leave_script(&mut self) {
         let frame = self.frame();
         if self.script.take_if(|script| !script.goes_on(frame)).is_some() {
@@ -48,7 +49,7 @@ impl Course {
         }
     }
 
-    /// A frame has ended, and nothing was changed there yet.
+    /// Takes note of a frame that has ended, before anything is changed there.
     pub(super) fn note_frame(&mut self) {
         if let Some(tape) = &mut self.tape {
             tape.note(&self.simulation);

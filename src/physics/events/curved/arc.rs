@@ -30,27 +30,29 @@ const FINEST: f64 = 16.0 * f64::EPSILON;
 /// Length of the first arc, in units of the time in which the motion changes.
 const FIRST: f64 = 0.05;
 
-/// Length of the arc after something has happened, in the same units: it nearly always happens again before that is over, up
-/// to a million times a second. One more look at the accelerations tells how they grow meanwhile; x is off by less than
-/// 1e-17 radii then, and v by 1e-13 radii per unit of time at its end, as the square of the time before.
+/// Length of the arc after something has happened, in units of the time in which the motion changes: it nearly always
+/// happens again before that is over, up to a million times a second. One more look at the accelerations tells how they
+/// grow meanwhile; x is off by less than 1e-17 radii then, and v by 1e-13 radii per unit of time at its end, as the square
+/// of the time before.
 const BRIEFEST: f64 = 1e-4;
 
-/// Length of the arc after that, in the same units: it costs a quarter of a longer one. The classical method of order 4 is
-/// off by less than 1e-17 radii then.
+/// Length of the arc after [`BRIEFEST`], in units of the time in which the motion changes: it costs a quarter of a longer
+/// one. The classical method of order 4 is off by less than 1e-17 radii then.
 const BRIEF: f64 = 1e-3;
 
-/// Up to this share of a brief arc a change is looked for.
+/// Share of a brief arc up to which a change is looked for.
 const SOON: f64 = 0.125;
 
-/// Up to this share of an arc v of its polynomial is as good as integrated: its error grows as the square.
+/// Share of an arc up to which v of its polynomial is as good as integrated: its error grows as the square.
 const BEGINNING: f64 = 1e-3;
 
-/// Length of the longest, in the same units: however straight it is, its loads must not change behind our back.
+/// Length of the longest arc, in units of the time in which the motion changes: however straight it is, its loads must not
+/// change unseen.
 const LONGEST: f64 = 0.2;
 
-/// Length, in the same units, of an arc that is not halved any more: its polynomial is off by the sixth power of that,
-/// and what is still found beyond is the rounding of the contacts' own equations. Two edges of a narrow crack hold a
-/// sphere across it to no better than rounding over the angle between their normals.
+/// Length of an arc that is not halved any more, in units of the time in which the motion changes: its polynomial is off by
+/// the sixth power of that, and what is still found beyond is the rounding of the contacts' own equations. Two edges of a
+/// narrow crack hold a sphere across it to no better than rounding over the angle between their normals.
 const SHORT: f64 = 1e-3;
 
 /// Fractions of an arc at which its end conditions are looked at: a load that dips below 0 between two of them and comes
@@ -66,7 +68,7 @@ const OVERSHOOT: f64 = 1e-10;
 pub(crate) struct Arc {
     start: Ends,
     end: Ends,
-    /// Between which times the polynomial runs, s.
+    /// Time between the ends of the polynomial, s.
     span: f64,
     /// How long the contacts hold, s, at most `span`.
     pub(crate) length: f64,
@@ -76,7 +78,7 @@ pub(crate) struct Arc {
     next: f64,
     /// Which contacts carry a load, and therefore hold.
     loaded: Vec<bool>,
-    /// How it is integrated.
+    /// How the arc is integrated.
     order: Order,
 }
 
@@ -173,7 +175,8 @@ impl Arc {
     }
 
     /// An arc so short that neither its integration nor its polynomial needs looking at. Where a contact changes on the way
-    /// but not soon, the arc ends before: most of these arcs are interrupted long before, and when that is need not be found.
+    /// but not soon, the arc ends before: most of these arcs are interrupted long before, and when that is need not be
+    /// found.
     fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
         let bodies = motion.step_rk4(&start.bodies, span);
         let end = Ends { a: motion.accelerations(&bodies).0, bodies };
@@ -190,8 +193,8 @@ impl Arc {
         arc
     }
 
-    /// How many times the error in the middle fits into what is allowed. The error of the polynomial is x⁽⁶⁾/720 s³ (h − s)³, so
-    /// that in the middle it is h²/24 times that of the acceleration, which the equation itself tells.
+    /// How many times the error in the middle fits into what is allowed. The error of the polynomial is x⁽⁶⁾/720 s³ (h −
+    /// s)³, so that in the middle it is h²/24 times that of the acceleration, which the equation itself tells.
     fn allowance(&self, motion: &ConstrainedMotion) -> f64 {
         let read = self.at(0.5 * self.span);
         let real = motion.accelerations(&read).0;
@@ -231,7 +234,7 @@ impl Arc {
         (0..self.start.bodies.len()).map(|i| self.polynomial(i).chord_acceleration(from, h)).collect()
     }
 
-    /// The path of one body.
+    /// The path of body `i`.
     fn polynomial(&self, i: usize) -> Hermite {
         let (start, end, h) = (&self.start.bodies[i], &self.end.bodies[i], self.span);
         let a = self.start.a[i];
@@ -280,7 +283,7 @@ impl Ends {
 }
 
 impl Body {
-    /// What errors of its place are measured by, m.
+    /// What errors of the bodies' places are measured by, m.
     fn size(&self) -> f64 {
         self.r.max(self.x.abs().max_element())
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::support::{Resting, Surface};
-use crate::physics::wall::{Face, Part, edge_direction, touch_part};
+use crate::physics::wall::{Face, Part, surface, touch_part};
 
 /// A body of the island.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +16,7 @@ pub(crate) struct Body {
     pub(crate) v: DVec3,
     /// Acceleration by everything but contacts, m/s².
     pub(crate) applied: DVec3,
-    /// 1/kg.
+    /// Inverse mass, 1/kg.
     pub(crate) inverse_mass: f64,
     /// Radius, m.
     pub(crate) r: f64,
@@ -39,7 +39,7 @@ impl Body {
 /// What a body of the island touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum On<'a> {
-    /// This part of a wall.
+    /// A wall, and the part of it.
     Wall(&'a Face, Part),
     /// Another body of the island.
     Body(usize),
@@ -48,9 +48,9 @@ pub(crate) enum On<'a> {
 /// A closed contact of the island.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Closed<'a> {
-    /// The body.
+    /// Place of the body in the island.
     pub(crate) a: usize,
-    /// What it touches.
+    /// What the body touches.
     pub(crate) on: On<'a>,
 }
 
@@ -61,11 +61,7 @@ pub(crate) fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
         On::Wall(face, part) => {
             let touch = touch_part(face, part, body.x, body.r);
             let radius = body.r + touch.gap;
-            let surface = match part {
-                Part::Face => Surface::Face,
-                Part::Edge(k) => Surface::Edge { along: edge_direction(face, k), radius },
-                Part::Corner(_) => Surface::Round { radius },
-            };
+            let surface = surface(face, part, radius);
             (Resting { a: contact.a, b: None, normal: touch.normal, surface }, touch.gap)
         }
         On::Body(b) => {

@@ -10,29 +10,29 @@ use crate::physics::wall_parts::{BORDER, room};
 /// rounding, and less than moves anything by 1e-14 m during an arc.
 const IDLE: f64 = 1e-11;
 
-/// How fast it may open, in the same units, before it must let go: a contact that opens by no more than the acceleration of a
-/// chord is off would be met again at once.
+/// How fast an idle contact may open, in units of the applied acceleration, before it must let go: a contact that opens by
+/// no more than the acceleration of a chord is off would be met again at once.
 pub(crate) const BARELY: f64 = 1e-3;
 
-/// How far it may open, in radii, before it must let go: so far that the chords, which depart from the path by a hundredth of
-/// that, do not meet it again, and so little that it may carry again as it is.
+/// How far an idle contact may open, in radii, before it must let go: so far that the chords, which depart from the path by
+/// a hundredth of that, do not meet it again, and so little that it may carry again as it is.
 pub(crate) const OPENED: f64 = 5e-11;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
 const SUNK: f64 = 1e-13;
 
-/// Overlaps up to so many radii are healed; deeper ones are the scene's.
+/// Deepest overlap that is healed, in radii; deeper ones are the scene's.
 const HEALED: f64 = 1e-10;
 
 /// How an arc is integrated: the shorter it is, the lower the order that is exact to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
-    /// By accelerations that grow evenly from its beginning to its end, without steps.
+    /// Integrated by accelerations that grow evenly from its beginning to its end, without steps.
     Three,
-    /// By the classical method of Runge and Kutta.
+    /// Integrated by the classical method of Runge and Kutta.
     Four,
-    /// By the method of Runge, Kutta and Fehlberg.
+    /// Integrated by the method of Runge, Kutta and Fehlberg.
     Eight,
 }
 
@@ -80,8 +80,8 @@ impl<'a> ConstrainedMotion<'a> {
         self.stepped(start, h, &STAGES, &ORDER_8)
     }
 
-    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order h⁵ is far below
-    /// rounding.
+    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order
+    /// h⁵ is far below rounding.
     pub(crate) fn step_rk4(&self, start: &[Body], h: f64) -> Vec<Body> {
         self.stepped(start, h, &CLASSICAL, &ORDER_4)
     }
@@ -117,7 +117,8 @@ impl<'a> ConstrainedMotion<'a> {
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 
-    /// What later margins are measured from: the bodies and their accelerations, m/s².
+    /// Rooms, openings and gaps of idle contacts now, from which later margins are measured; `a` are the bodies'
+    /// accelerations, m/s².
     pub(crate) fn marks(&self, bodies: &[Body], a: &[DVec3]) -> Marks {
         let openings = self.openings(bodies, a);
         Marks { rooms: self.rooms(bodies), openings, gaps: self.idle_gaps(bodies) }
@@ -157,7 +158,8 @@ impl<'a> ConstrainedMotion<'a> {
         self.margin(bodies, (&a, &forces), before)
     }
 
-    /// [`ConstrainedMotion::distance_to_change`] of bodies whose accelerations (m/s²) and forces of the holding contacts (N) are known.
+    /// The least that is left before something changes, as [`ConstrainedMotion::distance_to_change`] tells, of bodies whose
+    /// accelerations (m/s²) and forces of the holding contacts (N) are known.
     pub(crate) fn margin(&self, bodies: &[Body], (a, forces): (&[DVec3], &[f64]), before: &Marks) -> f64 {
         let loads = self.holding.iter().zip(forces);
         let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
@@ -210,7 +212,7 @@ fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3
 /// Weights of the stages of the classical method, each over the stages before it.
 const CLASSICAL: [&[f64]; 4] = [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
 
-/// Weights of its result.
+/// Weights of the result of the classical method.
 const ORDER_4: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
 /// Weights of the stages of RKF 7(8), each over the stages before it.

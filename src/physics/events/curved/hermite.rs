@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// x + v t + a t²/2 + s³ (b₃ + b₄ s + b₅ s²), s = t/span.
+/// The path x + v t + a t²/2 + s³ (b₃ + b₄ s + b₅ s²), m, with s = t/span.
 pub(crate) struct Hermite {
     pub(crate) x: DVec3,
     pub(crate) v: DVec3,
@@ -12,7 +12,7 @@ pub(crate) struct Hermite {
 }
 
 impl Hermite {
-    /// Position and velocity.
+    /// Position (m) and velocity (m/s) at `t`, s.
     pub(crate) fn read(&self, t: f64) -> (DVec3, DVec3) {
         let (s, [b3, b4, b5]) = (t / self.span, self.b);
         let x = self.x + (self.v + self.a * (0.5 * t)) * t + (b3 + (b4 + b5 * s) * s) * (s * s * s);
@@ -30,7 +30,7 @@ impl Hermite {
         self.a + (square + (cube + (fourth + b5 * d) * d) * d) * (2.0 / (self.span * self.span))
     }
 
-    /// Third derivative, m/s³.
+    /// Third derivative at `t` (s), m/s³.
     pub(crate) fn jerk(&self, t: f64) -> DVec3 {
         let (s, [b3, b4, b5]) = (t / self.span, self.b);
         (b3 * 6.0 + (b4 * 24.0 + b5 * (60.0 * s)) * s) / (self.span * self.span * self.span)
@@ -64,8 +64,8 @@ pub(crate) fn fall_below_zero(margin: &impl Fn(f64) -> f64, good: (f64, f64), ba
     to
 }
 
-/// ∛y for y ≥ 0 (∞ of ∞; 0 of what is too small for all its digits), by Newton's method from above: with + − × ÷ alone,
-/// the same on every machine.
+/// Cube root of y ≥ 0 (∞ of ∞; 0 of what is too small for all its digits), by Newton's method from above: with + − × ÷
+/// alone, equal on every machine.
 pub(crate) fn cube_root(y: f64) -> f64 {
     if !(y >= f64::MIN_POSITIVE && y.is_finite()) {
         return if y < f64::MIN_POSITIVE { 0.0 } else { y };

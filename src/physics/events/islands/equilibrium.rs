@@ -12,7 +12,7 @@ use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
 use crate::physics::events::rounding::{BRUSH, HOP, SUM};
 use crate::physics::support::{Bodies, Fate, Resting, Row, Short, Surface, accelerations, bind, restore, velocities};
 
-/// How much more than rounding it may cost to stop what opens by no more than rounding.
+/// Cost of stopping what opens by no more than rounding, in units of that rounding, above which it is not stopped.
 const DEAR: f64 = 10.0;
 
 /// An island after both complementarity problems.
@@ -30,7 +30,7 @@ pub(crate) struct Settled {
     pub(crate) forces: Vec<f64>,
     /// What becomes of every contact.
     pub(crate) fate: Short<Fate>,
-    /// Whether some contact that holds turns.
+    /// Whether the normal of some contact that holds turns.
     pub(crate) curved: bool,
     /// Whether both problems were solved to rounding.
     pub(crate) converged: bool,
@@ -145,7 +145,7 @@ pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
     tick * pull + SUM * body.v.length() + (2.0 * pull * HOP * size).sqrt()
 }
 
-/// u of the first body less u of the second.
+/// The vector u of the first body less that of the second.
 fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
     u(contact.a) - contact.b.map_or(DVec3::ZERO, u)
 }
@@ -167,7 +167,7 @@ impl Settled {
         if opening > noise || parts || self.turns(contact, bodies) { Fate::Opening } else { Fate::Idle }
     }
 
-    /// How fast the normal velocity of a contact grows, m/s².
+    /// Rate at which the normal velocity of a contact grows, m/s².
     fn opening(&self, contact: &Resting, bodies: &[Body]) -> f64 {
         let v = relative(contact, &|body| bodies[body].v);
         let a = relative(contact, &|body| self.a[body]);
@@ -246,7 +246,7 @@ impl Settled {
         }
     }
 
-    /// An idle contact whose bodies drift apart lets go, however slowly: what would meet there again must be seen.
+    /// Lets go every idle contact whose bodies drift apart, however slowly: what would meet there again must be seen.
     fn let_go(&mut self, bodies: &[Body], resting: &[Resting]) {
         if self.curved {
             return;

@@ -8,7 +8,7 @@ use crate::physics::log::Log;
 use crate::physics::model::Model;
 
 impl Rests {
-    /// A frame begins at `time`, s.
+    /// Begins a frame at `time`, s: loads are counted from then on.
     pub(crate) fn begin_frame(&mut self, time: f64) {
         self.frame_start = time;
         for held in self.held.values_mut() {
@@ -16,7 +16,7 @@ impl Rests {
         }
     }
 
-    /// The contacts of an island carry these forces (N) from `now` (s) on.
+    /// Lets the contacts of an island carry these forces (N) from `now` (s) on.
     pub(super) fn carry(&mut self, keys: &[Key], forces: &[f64], now: f64) {
         for (key, &force) in keys.iter().zip(forces) {
             let frame_start = self.frame_start;
@@ -26,7 +26,8 @@ impl Rests {
         }
     }
 
-    /// What the load of a resting contact does to its two bodies, m/s²: with it they fall back together after a hop.
+    /// Relative acceleration that the load of a resting contact gives its two bodies, m/s²: with it they fall back together
+    /// after a hop.
     pub(super) fn pressure(&self, model: &Model, key: Key) -> f64 {
         let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
         let force = self.held.get(&key).map_or(0.0, |held| held.load.force);
@@ -44,8 +45,8 @@ impl Rests {
         self.held.iter().filter_map(of).sum()
     }
 
-    /// The frame is over at `end`, s: adds a row for every rest that goes on, with the impulse that its support has
-    /// given in the frame.
+    /// Adds a row for every rest that goes on as the frame ends at `end`, s, with the impulse that its support has given in
+    /// the frame.
     #[inline]
     pub(crate) fn list(&mut self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
         // every impact of a gas ends a frame, and nothing rests in it

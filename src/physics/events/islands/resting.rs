@@ -18,7 +18,7 @@ use crate::physics::support::Short;
 use crate::physics::wall::Part;
 use crate::physics::wall_parts::part_ahead;
 
-/// No island.
+/// The number of no island.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Memory that a resting contact takes here, bytes: itself, its places in lists and trees, and its share of an arc.
@@ -37,15 +37,15 @@ pub(super) struct RestingContact {
     pub(super) part: Part,
     /// Whether its `rest` row has been written.
     pub(super) announced: bool,
-    /// Why it rests.
+    /// Why the contact rests.
     pub(super) reason: RestReason,
-    /// v_n when it was added, m/s.
+    /// Normal velocity when the contact was added, m/s.
     pub(super) v_n: f64,
     /// Time (s) at which the island is solved again: end of a summed bounce series, or of a pause. No rest is told before.
     pub(super) settles_at: f64,
-    /// What has stopped its bounces while none of them was told, N s.
+    /// Impulse that has stopped the contact's bounces while none of them was told, N s.
     pub(super) untold: f64,
-    /// What it carries.
+    /// The contact's support force.
     pub(super) load: Load,
     /// What bounces that were summed up have done by `settles_at`.
     pub(super) rub: Option<Rub>,
@@ -54,11 +54,11 @@ pub(super) struct RestingContact {
 /// The support force of a resting contact, and what it has given since the frame began.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Load {
-    /// Along the normal, N; of a curved rest when its island was last solved.
+    /// Support force along the normal, N; of a curved rest when its island was last solved.
     pub(super) force: f64,
-    /// Since when it has been that, s.
+    /// Time since which the force has been that, s.
     pub(super) since: f64,
-    /// What was given in this frame before that, N s.
+    /// Impulse given in this frame before that time, N s.
     pub(super) impulse: f64,
 }
 
@@ -72,11 +72,11 @@ impl Load {
 /// Spheres connected by resting contacts, until something changes.
 #[derive(Debug, Clone)]
 pub(super) struct Island {
-    /// Ascending; the first leads: its entry in the queue stands for the island.
+    /// Indices of the spheres, ascending; the first leads: its entry in the queue stands for the island.
     pub(super) spheres: Vec<usize>,
-    /// When its parabolas end, s.
+    /// Time at which the island's parabolas end, s.
     pub(super) end: f64,
-    /// How its spheres move if that is no parabola.
+    /// Motion of the spheres if that is no parabola.
     pub(super) curve: Option<Curve>,
 }
 
@@ -87,29 +87,29 @@ pub(crate) struct Curve {
     pub(super) arc: Shared<Arc>,
     /// The contacts of the island.
     pub(super) contacts: Shared<[IslandContact]>,
-    /// Where on the arc the chord begins, s.
+    /// Time on the arc at which the chord begins, s.
     pub(super) offset: f64,
     /// When the chord began, s; infinite once the spheres have left it.
     pub(crate) from: f64,
-    /// Its length, s.
+    /// Length of the chord, s.
     pub(super) length: f64,
-    /// Whether a contact lets go or changes its part at the end.
+    /// Whether a contact lets go or changes its part at the end of the chord.
     pub(super) changes: bool,
 }
 
 /// A contact of an island.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct IslandContact {
-    /// Its sphere, by the place in the island.
+    /// The sphere, by its place in the island.
     pub(super) a: usize,
-    /// What that touches.
+    /// What the sphere touches.
     pub(super) other: Other,
 }
 
 /// What a sphere of an island touches.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Other {
-    /// This part of a wall, by the wall's index.
+    /// A wall, by its index, and the part of it.
     Wall(usize, Part),
     /// Another sphere, by its place in the island.
     Place(usize),
@@ -144,7 +144,7 @@ impl Curve {
         Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
-    /// The next chord, on this arc or on the one after it.
+    /// The curve with the next chord, on this arc or on the one after it.
     pub(super) fn next(self, model: &Model, now: f64) -> Curve {
         let offset = self.offset + self.length;
         if offset < self.arc.length {
@@ -184,18 +184,18 @@ pub(super) struct Past {
     /// The spheres that followed it.
     pub(super) spheres: Vec<usize>,
     pub(super) curve: Curve,
-    /// Until when they did, s.
+    /// Time up to which they followed it, s.
     pub(super) until: f64,
 }
 
 /// All resting contacts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rests {
-    /// By the bodies that touch.
+    /// Resting contacts, by the bodies that touch.
     pub(super) held: BTreeMap<Key, RestingContact>,
     /// Contacts by sphere; empty until something rests.
     pub(super) of: Vec<Vec<Key>>,
-    /// By number; none where a number is free.
+    /// Islands by number; none where a number is free.
     pub(super) islands: Vec<Option<Island>>,
     /// Numbers that are free.
     pub(super) vacant: Vec<u32>,
@@ -207,15 +207,16 @@ pub(crate) struct Rests {
     pub(super) past: Vec<Past>,
     /// When the frame under way began, s.
     pub(super) frame_start: f64,
-    /// Islands that move on a curve.
+    /// Number of islands that move on a curve.
     curves: usize,
-    /// Since when that many do, s.
+    /// Time since which that many islands move on a curve, s.
     curved_since: f64,
+    /// Time spent in curved rest up to then, s.
     curved_time: f64,
 }
 
 impl Rests {
-    /// Nothing rests, and a frame begins at `time`, s.
+    /// The rests of a run in which nothing rests, and a frame begins at `time`, s.
     pub(crate) fn new(time: f64) -> Rests {
         Rests { frame_start: time, ..Rests::default() }
     }
@@ -253,7 +254,7 @@ impl Rests {
         self.of.get(i).map_or(&[], Vec::as_slice)
     }
 
-    /// How many contacts of sphere `i` rest.
+    /// Number of contacts of sphere `i` that rest.
     pub(crate) fn count(&self, i: usize) -> usize {
         self.of.get(i).map_or(0, Vec::len)
     }
@@ -301,8 +302,8 @@ impl Rests {
         self.curves = self.curves.saturating_add_signed(change);
     }
 
-    /// A contact may rest from now on, for this reason: the island that it belongs to will decide, and is solved again at
-    /// `settles_at`, s.
+    /// Adds a contact that may rest from now on, for `reason`: the island that it belongs to will decide, and is solved
+    /// again at `settles_at`, s.
     pub(crate) fn add(
         &mut self,
         model: &Model,
@@ -343,7 +344,7 @@ impl Rests {
         self.dirty.push(a);
     }
 
-    /// A contact rests no longer; returns what it was, if it did.
+    /// Removes a contact that rests no longer; returns what it was, if it did.
     pub(super) fn drop(&mut self, key: Key) -> Option<RestingContact> {
         let (kind, a, b) = key;
         self.of[a].retain(|&other| other != key);
@@ -454,7 +455,7 @@ impl Rests {
         self.held.len() * BYTES_A_CONTACT + self.of.len() * BYTES_A_SPHERE + self.past.len() * BYTES_A_PAST
     }
 
-    /// From here on, frames before are forgotten.
+    /// Forgets what belongs to frames before the present one.
     pub(crate) fn forget(&mut self) {
         self.past.clear();
     }

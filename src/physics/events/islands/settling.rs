@@ -20,16 +20,17 @@ use crate::physics::wall_parts::{part_ahead, part_end};
 
 /// An island under way to be solved.
 struct Members {
-    /// Its spheres, ascending.
+    /// Indices of the island's spheres, ascending.
     spheres: Vec<usize>,
     /// The spheres as bodies, in that order.
     bodies: Vec<Body>,
-    /// Its contacts, in the order of their keys.
+    /// Contacts of the island, in the order of their keys.
     contacts: Vec<IslandContact>,
 }
 
 impl Mechanics {
-    /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
+    /// Ends the rests of sphere `i`, after an impulse on it, that are struck apart or driven together harder than rest
+    /// allows.
     pub(crate) fn disturb(&mut self, model: &Model, log: &mut Log, i: usize) {
         if self.rests.is_empty() || self.rests.of[i].is_empty() {
             return;
@@ -68,8 +69,8 @@ impl Mechanics {
         self.set_free(model, key);
     }
 
-    /// Bounces of a sphere on a wall that were summed up are told one by one from now on where something else strikes it: it
-    /// has the velocity then that they have left it, and not their mean one. Whether there were any.
+    /// Has bounces of a sphere on a wall that were summed up told one by one from now on where something else strikes it:
+    /// the sphere gets the velocity that they have left it, and not their mean one. Whether there were any.
     pub(crate) fn interrupt_series(&mut self, model: &Model, log: &mut Log, struck: Key) -> bool {
         if self.rests.is_empty() || model.law.tangential == 1.0 {
             return false; // only bounces that rub are summed up so
@@ -95,8 +96,8 @@ impl Mechanics {
         interrupted
     }
 
-    /// What no longer rests on anything is pulled as in flight from now on: what it meets at this instant asks how it is
-    /// pressed, before any island is solved.
+    /// Has the spheres of a contact that no longer rest on anything pulled as in flight from now on: what they meet at this
+    /// instant asks how they are pressed, before any island is solved.
     fn set_free(&mut self, model: &Model, key: Key) {
         for &i in Changed::of(key).spheres() {
             if self.rests.of[i].is_empty() {
@@ -106,7 +107,8 @@ impl Mechanics {
         }
     }
 
-    /// The parabolas of an island end: a foot comes to the end of its part, an arc or its chord is over.
+    /// Handles the end of an island's parabolas: a foot comes to the end of its part, an arc or its chord is over. Returns
+    /// the spheres whose motion that has changed.
     pub(crate) fn end_parabola(&mut self, model: &Model, leader: usize) -> Changed {
         let now = self.trajectories.now;
         let island = self.rests.island(leader).expect("an end that is due is that of an island");
@@ -150,7 +152,7 @@ impl Mechanics {
         }
     }
 
-    /// The motion of these spheres has changed: plans of others that name them are stale.
+    /// Notes that the motion of these spheres has changed: plans of others that name them are stale.
     fn changed(&mut self, spheres: Vec<usize>) -> Changed {
         for &i in &spheres {
             self.trajectories.mark_changed(i);
@@ -158,7 +160,8 @@ impl Mechanics {
         Changed::Spheres(spheres)
     }
 
-    /// No contact is left at this instant: decides what holds, island by island.
+    /// Decides what holds, island by island, once no contact is left at this instant. Returns the spheres whose motion that
+    /// has changed.
     pub(crate) fn settle(&mut self, model: &Model, log: &mut Log) -> Result<Changed, Stall> {
         let spheres = self.rests.take_dirty();
         for &i in &spheres {
@@ -284,8 +287,8 @@ impl Mechanics {
         Ok(None)
     }
 
-    /// Sends the members of an island on their way, on a curve or on parabolas, by their accelerations (m/s²) and the forces (N)
-    /// of its contacts, of which those that are stuck are held for a moment.
+    /// Sends the members of an island on their way, on a curve or on parabolas, by their accelerations (m/s²) and the
+    /// forces (N) of its contacts, of which those that are stuck are held for a moment.
     fn begin_motion(
         &mut self,
         model: &Model,
@@ -308,7 +311,7 @@ impl Mechanics {
         }
     }
 
-    /// Bounces that were summed up are over: what they have left of the tangential velocity.
+    /// Gives spheres what summed bounces that are over have left of the tangential velocity.
     fn rub_off(&mut self, model: &Model, keys: &[Key]) {
         for &key in keys {
             let held = self.rests.kept_mut(key);
@@ -321,13 +324,13 @@ impl Mechanics {
         }
     }
 
-    /// When the first series of bounces of these contacts that was summed up is over, s.
+    /// Time at which the first summed series of bounces of these contacts is over, s.
     fn rubbing_time(&self, keys: &[Key]) -> f64 {
         let held = keys.iter().map(|&key| self.rests.kept(key)).filter(|held| held.rub.is_some());
         held.map(|held| held.settles_at).filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
     }
 
-    /// How much of its acceleration moves on a sphere whose only contact is one of bounces that were summed up.
+    /// Share of its acceleration that moves on a sphere whose only contact is one of bounces that were summed up; else 1.
     fn share_of_pull(&self, keys: &[Key]) -> f64 {
         let [key] = keys else { return 1.0 };
         self.rests.kept(*key).rub.map_or(1.0, |rub| rub.share)
@@ -385,7 +388,7 @@ impl Mechanics {
         }
     }
 
-    /// When the first foot of an island on parabolas comes to the end of its part, s.
+    /// Time at which the first foot of an island on parabolas comes to the end of its part, s.
     fn parts_end(&self, model: &Model, spheres: &[usize], contacts: &[IslandContact]) -> f64 {
         let mut first = f64::INFINITY;
         for contact in contacts {
@@ -400,7 +403,7 @@ impl Mechanics {
         self.trajectories.now + first
     }
 
-    /// When the first of these contacts asks for its island to be settled again, s.
+    /// Time at which the first of these contacts asks for its island to be settled again, s.
     fn settling_time(&self, keys: &[Key]) -> f64 {
         let ends = keys.iter().map(|&key| self.rests.kept(key)).map(|held| held.settles_at);
         ends.filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)

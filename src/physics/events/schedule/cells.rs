@@ -21,7 +21,7 @@ use layout::Layout;
 pub(crate) mod layout;
 mod walls;
 
-/// Cubes are not counted beyond this: the outermost reach to infinity, where coordinates could not tell them apart.
+/// Largest coordinate of a cube: the outermost reach to infinity, where coordinates could not tell cubes apart.
 const OUTERMOST: i32 = 1 << 28;
 
 /// How far beyond its cube a sphere must be that leaves it on a parabola, in edges: less than a cube is wider than it must
@@ -34,16 +34,16 @@ const ENTRIES: usize = 3;
 /// Words that are copied at once from a cell: its entries and its header.
 const WORDS: usize = ENTRIES + 1;
 
-/// In a header: where the number of spheres in entries begins.
+/// First bit of the number of spheres in entries, in a header.
 const COUNT: u32 = 30;
 
-/// In a header: walls are near.
+/// Bit that says that walls are near, in a header.
 const WALLS: u32 = 1 << 29;
 
-/// In a header: the cell is at the border of the table, where what is around it is elsewhere.
+/// Bit that says that the cell is at the border of the table, where what is around it is elsewhere, in a header.
 const BORDER: u32 = 1 << 28;
 
-/// In a header, the bits of the slot that overflowed last; all of them: none.
+/// Bits of the slot that overflowed last, in a header; all of them set: none.
 const NONE: u32 = BORDER - 1;
 
 /// What one cell of the table holds: slots in entries, and a header that says how many, whether walls are near, and which
@@ -82,14 +82,14 @@ pub(crate) struct Cells {
     edge: f64,
     /// The table's size along each axis.
     size: [i32; 3],
-    /// From one cell to the next along each axis.
+    /// Distance in the table from one cell to the next along each axis.
     strides: [u32; 3],
     /// The largest radius of a sphere in the table, m.
     widest: f64,
     table: Vec<Cell>,
-    /// By slot: the one that overflowed before it in the same cell; empty as long as none has.
+    /// The slot that overflowed before each slot in the same cell; empty as long as none has.
     next: Vec<u32>,
-    /// How many have overflowed.
+    /// Number of slots that have overflowed.
     overflow: usize,
     /// Slots of the spheres that are in no cube: all look at them.
     loose: Vec<u32>,
@@ -126,7 +126,7 @@ impl Cells {
         size_of::<Cells>() + size_of_val(&*self.table) + notes.iter().sum::<usize>()
     }
 
-    /// How it was laid out.
+    /// The layout of the table.
     pub(crate) fn layout(&self) -> Layout {
         Layout { origin: self.origin, edge: self.edge, size: self.size, widest: self.widest }
     }
@@ -196,7 +196,7 @@ impl Cells {
         self.widest
     }
 
-    /// How wide a cube is, m.
+    /// Edge of a cube, m.
     pub(crate) fn edge(&self) -> f64 {
         self.edge
     }
@@ -243,7 +243,7 @@ impl Cells {
         );
     }
 
-    /// [`Cells::around`] a cell at the border of the table.
+    /// Lists the spheres in the 27 cubes around a cell at the border of the table.
     #[cold]
     #[inline(never)]
     fn around_border(&self, [x, y, z]: CellCoordinates, candidates: &mut Candidates) {
@@ -252,7 +252,8 @@ impl Cells {
         self.gather(cells.as_flattened().as_flattened(), candidates, 1);
     }
 
-    /// [`Cells::ahead`] into a cell at the border of the table.
+    /// Lists the spheres in the nine cubes that came within reach when a sphere went through `exit` into a cell at the
+    /// border of the table.
     #[cold]
     #[inline(never)]
     fn ahead_border(&self, cube: CellCoordinates, exit: Exit, candidates: &mut Candidates) {
@@ -335,7 +336,8 @@ impl Cells {
         first
     }
 
-    /// [`Cells::crossing`] without acceleration, and without branches: the side cannot be predicted by the processor.
+    /// When a sphere on `path`, without acceleration, leaves its cube (s from now; infinite if never), and through which
+    /// side. Without branches: the side cannot be predicted by the processor.
     #[inline(always)]
     fn straight_crossing(&self, cube: CellCoordinates, path: &Path) -> (f64, Exit) {
         let exit = |axis: usize| {
@@ -359,8 +361,8 @@ impl Cells {
         path.x[axis] - (self.origin[axis] + f64::from(cube[axis]) * self.edge)
     }
 
-    /// The sphere at a slot leaves its cell through `exit`: by the index, since a recomputed position may disagree with the
-    /// event. Returns the cell it is in then.
+    /// Moves the sphere at a slot out of its cell through `exit`: by the index, since a recomputed position may disagree
+    /// with the event. Returns the cell that it is in then.
     pub(crate) fn cross(&mut self, slot: usize, cell: CellRef, exit: Exit, slots: usize) -> CellRef {
         let next = self.beyond(cell, exit);
         self.unlink(slot as u32, cell.index);
@@ -432,7 +434,8 @@ impl Cells {
         self.next[at as usize] = after;
     }
 
-    /// The index of the cell that keeps a cube. The cubes that the spheres begin in and those around them are off the border.
+    /// The index of the cell that keeps a cube. The cubes that the spheres begin in and those around them are off the
+    /// border.
     fn index_of(&self, cube: CellCoordinates) -> u32 {
         let share = |axis: usize| (cube[axis] + 2).rem_euclid(self.size[axis]) as u32 * self.strides[axis];
         share(0) + share(1) + share(2)

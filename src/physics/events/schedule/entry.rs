@@ -12,9 +12,9 @@ pub(crate) type EventOrder = (u8, usize, usize);
 pub(crate) enum EventKind {
     /// A contact that a sphere has planned.
     Contact,
-    /// An island's parabolas end.
+    /// The end of an island's parabolas.
     IslandEnd,
-    /// A sphere goes into the next cell; also stands for no event at all, at an infinite time.
+    /// The way of a sphere into the next cell; also stands for no event at all, at an infinite time.
     Crossing,
 }
 

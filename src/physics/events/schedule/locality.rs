@@ -19,7 +19,7 @@ impl<D: Detector> Schedule<D> {
         self.reorder(trajectories, rests, &order);
     }
 
-    /// The sphere at slot `order[s]` comes to slot s.
+    /// Moves the sphere at slot `order[s]` to slot s.
     pub(crate) fn reorder(&mut self, trajectories: &mut Trajectories, rests: &Rests, order: &[u32]) {
         trajectories.reorder(order);
         if let Some(cells) = &mut self.cells {

@@ -15,11 +15,11 @@ use crate::physics::events::trajectories::Trajectories;
 /// cells they are in: nothing else writes those.
 #[derive(Debug, Clone)]
 pub(crate) struct Schedule<D> {
-    /// When do bodies next touch?
+    /// What tells when bodies next touch.
     pub(crate) detector: D,
     /// Gaps computed since the log was last told.
     pub(crate) evaluations: u64,
-    /// By slot.
+    /// Times of the next events, by slot.
     pub(crate) queue: Queue,
     /// The earliest event and the slot it is entered for, as long as nothing has changed since it was looked up.
     pub(super) next: Option<(f64, usize)>,
@@ -34,7 +34,7 @@ pub(crate) struct Schedule<D> {
 }
 
 impl<D> Schedule<D> {
-    /// No event, and no cells, for so many spheres at time `t`, s.
+    /// A schedule of `spheres` spheres at time `t` (s) without events and without cells.
     pub(crate) fn new(detector: D, spheres: usize, t: f64) -> Schedule<D> {
         Schedule {
             detector,
@@ -72,12 +72,12 @@ impl<D> Schedule<D> {
         }
     }
 
-    /// What was taken is still the next event.
+    /// Puts back the event that was taken: it is still the next one.
     pub(crate) fn put_back(&mut self, next: (f64, usize)) {
         self.next = Some(next);
     }
 
-    /// Slots, or entries of many of them, have changed: what was looked up is void.
+    /// Forgets what was looked up: slots, or entries of many of them, have changed.
     pub(super) fn forget(&mut self) {
         self.next = None;
         self.ties = Ties::none();

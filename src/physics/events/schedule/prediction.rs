@@ -52,7 +52,7 @@ impl<D: Detector> Schedule<D> {
         trajectories.records[slot].plan = plan;
     }
 
-    /// The sphere at a slot, whose event this is, goes into the next cell: what it was to meet stays, the nine cells ahead
+    /// Moves the sphere at a slot, whose event this is, into the next cell: what it was to meet stays, the nine cells ahead
     /// and their walls are new.
     pub(crate) fn cross(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, slot: usize) {
         let slots = trajectories.records.len();

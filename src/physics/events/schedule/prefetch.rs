@@ -13,7 +13,7 @@ use crate::physics::contact::Kind;
 use crate::physics::events::record::{CellRef, Exit, Record};
 use crate::physics::events::trajectories::Trajectories;
 
-/// Fewer spheres are in a fast cache without it.
+/// Fewest spheres for which prefetching pays: fewer are in a fast cache without it.
 const MANY: usize = 20_000;
 
 /// How many events ahead the places around are asked for, then the lines there, then those around the partner.
@@ -21,17 +21,17 @@ const PLACES: usize = 12;
 const LINES: usize = 8;
 const PARTNER: usize = 4;
 
-/// Events that a list should have.
+/// Number of events that a list should have.
 const LISTED: usize = 64;
 
 /// A guess at the next events.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Prefetch {
-    /// Time, s, and slot.
+    /// Time, s, and slot of each event.
     list: Vec<(f64, u32)>,
-    /// Events handled since it was made.
+    /// Number of events handled since the list was made.
     at: usize,
-    /// How far it should reach, s.
+    /// Time that the list should reach, s.
     span: f64,
     candidates: Option<Box<Candidates>>,
     /// Scratch buffers for looking into the queue.
@@ -43,24 +43,24 @@ fn crosses(record: &Record) -> bool {
     record.plan.crossing < record.plan.contact
 }
 
-/// Where a sphere will look around.
+/// The cell around which a sphere will look.
 fn next_spot(cells: &Cells, record: &Record) -> CellRef {
     if crosses(record) && !record.cell.is_loose() { cells.beyond(record.cell, record.plan.exit) } else { record.cell }
 }
 
-/// The slot of the sphere that it meets, if that comes first.
+/// The slot of the sphere that a sphere meets, if that comes first.
 fn partner(record: &Record) -> Option<usize> {
     (!crosses(record) && record.plan.kind == Kind::Pair).then_some(record.plan.other as usize)
 }
 
 impl Prefetch {
-    /// Whether so many spheres outgrow a fast cache.
+    /// Whether `spheres` spheres outgrow a fast cache.
     #[inline]
     pub(crate) fn pays(spheres: usize) -> bool {
         spheres >= MANY
     }
 
-    /// One event more is handled: asks for what those that follow will read.
+    /// Asks, once one event more is handled, for what those that follow will read.
     pub(crate) fn look_ahead(&mut self, trajectories: &Trajectories, queue: &Queue, cells: &Cells, simd: Simd) {
         self.at += 1;
         if self.at + PLACES >= self.list.len().max(2 * PLACES) {

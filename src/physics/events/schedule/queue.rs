@@ -13,7 +13,7 @@ const FAN: usize = 8;
 /// Levels that the indices of spheres can need: 8¹¹ > 2³².
 const MOST_LEVELS: usize = 11;
 
-/// In place of a slot: several have the same time.
+/// What stands in place of a slot where several have one time.
 const TIED: u32 = u32::MAX;
 
 /// The next event time at each slot, s; infinite where there is none.
@@ -30,7 +30,7 @@ pub(crate) struct Queue {
 }
 
 impl Queue {
-    /// No events at `count` slots.
+    /// A queue of `count` slots without events.
     pub(crate) fn new(count: usize) -> Queue {
         let (mut starts, mut levels, mut total) = ([0; MOST_LEVELS], 0, 0);
         let mut width = count.max(1);
@@ -76,7 +76,7 @@ impl Queue {
         (time, (holder != TIED).then_some(holder as usize))
     }
 
-    /// When the event of a slot is, s.
+    /// Time of the event of a slot, s.
     pub(crate) fn time_of(&self, slot: usize) -> f64 {
         self.blocks[slot / FAN].0[slot % FAN]
     }
@@ -131,7 +131,7 @@ impl Queue {
     }
 }
 
-/// An entry changes: the minima above it are found anew, all of them or up to the first that stays.
+/// A change of an entry: the minima above it are found anew, all of them or up to the first that stays.
 struct Update<'a, const ALL: bool> {
     queue: &'a mut Queue,
     slot: usize,
@@ -173,7 +173,7 @@ impl<const ALL: bool> MinTreeJob for Update<'_, ALL> {
     }
 }
 
-/// The earliest time, and its slot unless several have it.
+/// A look for the earliest time, and its slot unless several have it.
 struct Lookup<'a> {
     queue: &'a Queue,
 }
@@ -199,16 +199,16 @@ impl MinTreeJob for Lookup<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
     #[test]
     fn the_first_is_what_a_linear_search_finds() {
         let count = 1000;
         let mut queue = Queue::new(count);
         let mut times = vec![f64::INFINITY; count];
-        let mut seed = 1_u64;
+        let mut draw = SplitMix64::new(1);
         for _ in 0..20_000 {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let (i, time) = ((seed >> 33) as usize % count, ((seed >> 20) % 512) as f64);
+            let (i, time) = (draw.below(count), draw.below(512) as f64);
             times[i] = time;
             let first = queue.earliest();
             if first.1 == Some(i) {

@@ -13,7 +13,8 @@ use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::path::Path;
 
-/// Square of a distance over that of the sum of the radii up to which spheres may rest on each other: more than any rounding.
+/// Square of a distance over that of the sum of the radii up to which spheres may rest on each other: more than any
+/// rounding.
 const TOUCHES: f64 = 1.01;
 
 /// The sphere that looks for its next contact, and what it looks with.
@@ -66,8 +67,8 @@ impl<D: Detector> Search<'_, D> {
         count
     }
 
-    /// Until when a wall is worth a look, s from now: walls come before pairs of the same time, and times that round to
-    /// the same are the same.
+    /// Time up to which a wall is worth a look, s from now: walls come before pairs of the same time, and times that round
+    /// to one number are the same.
     #[inline]
     fn span_for_wall(&self, wall: usize, plan: &Plan) -> Span {
         let now = self.trajectories.now;

@@ -12,7 +12,7 @@ use pulp::x86::V3;
 /// Slots that are looked at in one call at most: a bit each.
 pub(crate) const MOST: usize = 64;
 
-/// Eight times: one cache line.
+/// Eight times, s: one cache line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 pub(crate) struct Eight(pub(super) [f64; 8]);
@@ -30,20 +30,20 @@ pub(crate) struct PairBatch {
 pub(crate) const BATCHES: usize = MOST / 4 + 1;
 
 impl PairBatch {
-    /// Never.
+    /// A pair that never meets.
     pub(crate) const NEVER: PairBatch = PairBatch { b: [-1.0; 4], c: [f64::INFINITY; 4], discriminant: [0.0; 4] };
 }
 
 /// The earliest of some pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Earliest {
-    /// When they meet, s; infinite if none does before the other has its own next contact.
+    /// Time at which the pair meets, s; infinite if none does before the other sphere has its own next contact.
     pub(crate) time: f64,
-    /// The other's slot.
+    /// Slot of the other sphere.
     pub(crate) with: u32,
     /// A bit for each pair that meets.
     pub(crate) meet: u64,
-    /// Whether one of them overlaps, or another meets at the same time: they are to be looked at one by one.
+    /// Whether some pair overlaps, or another meets at the same time: then the pairs are to be looked at one by one.
     pub(crate) doubtful: bool,
 }
 
@@ -55,7 +55,7 @@ pub(crate) struct Query<'a> {
     pub(crate) now: f64,
 }
 
-/// What the processor can.
+/// The instructions that the processor has.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Simd {
     #[cfg(target_arch = "x86_64")]
@@ -63,7 +63,7 @@ pub(crate) struct Simd {
 }
 
 impl Simd {
-    /// As this processor is.
+    /// The instructions of this processor.
     pub(crate) fn new() -> Simd {
         Simd {
             #[cfg(target_arch = "x86_64")]
@@ -71,7 +71,7 @@ impl Simd {
         }
     }
 
-    /// As a processor that cannot.
+    /// The instructions of a processor without AVX2.
     #[cfg(test)]
     fn plain() -> Simd {
         Simd {
@@ -122,9 +122,9 @@ impl Simd {
 
 /// A job on the tree of minima of eight.
 pub(crate) trait MinTreeJob {
-    /// What comes of it.
+    /// Result of the job.
     type Output;
-    /// Does it, with this way to find the smallest of eight.
+    /// Does the job, with this way to find the smallest of eight.
     fn run(self, minimum: impl MinOfEight) -> Self::Output;
 }
 
@@ -136,7 +136,7 @@ pub(crate) trait MinOfEight: Copy {
     fn exchange(self, times: &mut Eight, k: usize, time: f64) -> (f64, u32);
 }
 
-/// One by one.
+/// Finds the smallest one by one.
 #[derive(Clone, Copy)]
 struct Plain;
 
@@ -174,7 +174,7 @@ fn look(query: Query, records: &[Record], slots: &[u32], batches: &mut [PairBatc
     meet
 }
 
-/// When four pairs that meet do, s.
+/// Times at which four pairs that meet do so, s.
 fn times(now: f64, batch: &PairBatch) -> [f64; 4] {
     [0, 1, 2, 3].map(|k| now + batch.c[k] / (batch.discriminant[k].sqrt() - batch.b[k]))
 }
@@ -386,16 +386,13 @@ mod tests {
     use super::*;
     use crate::physics::events::trajectories::Trajectories;
     use crate::physics::model::Model;
+    use crate::random::SplitMix64;
     use glam::dvec3;
 
-    /// Numbers in [−1, 1) of many magnitudes, the same in every run.
+    /// Numbers of three magnitudes and either sign, the same in every run.
     fn numbers() -> impl FnMut() -> f64 {
-        let mut seed = 1_u64;
-        move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let share = (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
-            share * [1.0, 1e-3, 1e3][(seed >> 5) as usize % 3]
-        }
+        let mut draw = SplitMix64::new(1);
+        move || draw.centered() * [1.0, 1e-3, 1e3][draw.below(3)]
     }
 
     #[test]

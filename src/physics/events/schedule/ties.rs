@@ -10,19 +10,19 @@ use super::queue::Queue;
 /// Slots with an event at one time, the first on top. What has changed since it was put in is noticed when it comes up.
 #[derive(Debug, Clone)]
 pub(crate) struct Ties {
-    /// s; no number while there are none.
+    /// Time of the events, s; NaN while there are none.
     time: f64,
     heap: BinaryHeap<Reverse<(EventOrder, u32)>>,
 }
 
 impl Ties {
-    /// None.
+    /// No events.
     pub(crate) fn none() -> Ties {
         Ties { time: f64::NAN, heap: BinaryHeap::new() }
     }
 
-    /// The slot of the first of the events at `time` (s), the queue's earliest, which several slots have; `order` is that of
-    /// a slot's event.
+    /// The slot of the first of the events at `time` (s), the queue's earliest, which several slots have; `order` is that
+    /// of a slot's event.
     #[cold]
     pub(crate) fn first(&mut self, queue: &Queue, time: f64, order: impl Fn(usize) -> EventOrder) -> usize {
         if self.time != time {

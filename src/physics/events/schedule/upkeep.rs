@@ -17,13 +17,13 @@ use crate::physics::events::record::{CellRef, Record};
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 
-/// A crossing costs about as much as this many looks at a pair, with those it takes.
+/// Cost of a crossing in looks at a pair, those that it takes included.
 const CROSSING: f64 = 32.0;
 
-/// A sphere that is out stays out if it has roamed this much less than takes one out: none goes to and fro.
+/// Factor by which less roaming keeps a sphere out of the cells than takes one out: none goes to and fro.
 const STAYS_OUT: f64 = 4.0;
 
-/// Why there are cells.
+/// Why a schedule that takes spheres out of its cells has them.
 const CELLS: &str = "a sphere is taken out of cells only where there are some";
 
 impl<D: Detector> Schedule<D> {
@@ -66,8 +66,8 @@ impl<D: Detector> Schedule<D> {
         self.order_by_cells(trajectories, rests);
     }
 
-    /// Whether a sphere has crossed, or would have, so many cells of this edge (m) since its motion last changed that looking at all
-    /// spheres once and being looked at by all is no more work; `times` that many.
+    /// Whether a sphere has crossed, or would have, so many cells of this edge (m) since its motion last changed that
+    /// looking at all spheres once and being looked at by all is no more work; `times` that many.
     fn roams(&self, model: &Model, trajectories: &Trajectories, record: &Record, edge: f64, times: f64) -> bool {
         let now = trajectories.now;
         let (alone, span) = (now - record.trajectory.t, now - self.wear.since);
@@ -101,7 +101,7 @@ impl<D: Detector> Schedule<D> {
         }
     }
 
-    /// A sphere in no cell is in one again as soon as something has happened to it.
+    /// Enters a sphere in no cell again, since something has happened to it.
     #[inline(always)]
     pub(super) fn catch(&mut self, trajectories: &mut Trajectories, slot: usize) {
         if trajectories.records[slot].cell.is_loose() {

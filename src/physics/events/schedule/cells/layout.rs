@@ -9,16 +9,16 @@ use glam::DVec3;
 
 use crate::geometry::Bounds;
 
-/// Others in the cube of a sphere, on average, at most, where a smaller cube can help.
+/// Most other spheres in the cube of a sphere, on average, where a smaller cube can help.
 const CROWDED: f64 = 2.0;
 
-/// A crossing costs about as much as this many looks at a pair, apart from those it takes.
+/// Cost of a crossing in looks at a pair, apart from those that it takes.
 const CROSSING: f64 = 16.0;
 
-/// So many cubes from the origin the outermost, which reach to infinity, are not near.
+/// Distance from the origin, in cubes, that is not near the outermost, which reach to infinity.
 const FARTHEST: f64 = 1e7;
 
-/// A cube over the least edge: leaves room for the rounding of coordinates divided by it.
+/// Edge of a cube over the least one: leaves room for the rounding of coordinates divided by it.
 const MARGIN: f64 = 1.0 + 1e-6;
 
 /// Where the spheres are that the table is for, m.
@@ -34,7 +34,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// For spheres at `x` (m) none of which is wider than `widest`, m.
+    /// The layout for spheres at `x` (m) none of which has a larger radius than `widest`, m.
     pub(crate) fn new(x: &[DVec3], widest: f64) -> Layout {
         let room = bounds(x);
         let mut origin = room.min;
@@ -105,7 +105,7 @@ pub(crate) fn widest_in_table(x: &[DVec3], radii: &[f64]) -> f64 {
     best
 }
 
-/// How many cubes a box has.
+/// Number of cubes of a box.
 fn cubes(size: DVec3, edge: f64) -> f64 {
     (size / edge + DVec3::ONE).to_array().iter().product()
 }
@@ -128,7 +128,8 @@ fn sparse_edge(least: f64, size: DVec3, count: usize) -> f64 {
     edge
 }
 
-/// Others in the cube of a sphere at `x` (m), on average. Cubes are counted in a folded table, which adds less than one.
+/// Other spheres in the cube of a sphere, on average over spheres at `x` (m). Cubes are counted in a folded table, which
+/// adds less than one.
 fn crowding(x: &[DVec3], origin: DVec3, edge: f64) -> f64 {
     let slots = (4 * x.len()).next_power_of_two();
     let mut counts = vec![0_u32; slots];

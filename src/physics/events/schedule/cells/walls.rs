@@ -7,11 +7,12 @@ use crate::physics::events::record::CellCoordinates;
 use crate::physics::model::Model;
 use crate::physics::wall::Face;
 
-/// Leaves room for the rounding of coordinates.
+/// Widening of walls that leaves room for the rounding of coordinates, dimensionless.
 const MARGIN: f64 = 1.0 + 1e-6;
 
-/// Notes of a wall near a place that there may be, 8 bytes each: a quarter of a gigabyte. A hundred shelves through a million
-/// spheres need some millions; a thousand walls on each other, over a lattice of a million, would need ten times as many.
+/// Notes of a wall near a place that there may be, 8 bytes each: a quarter of a gigabyte. A hundred shelves through a
+/// million spheres need some millions; a thousand walls on each other, over a lattice of a million, would need ten times as
+/// many.
 const MOST_NOTES: usize = 1 << 25;
 
 /// The cubes from one corner to the other, and where among them a wall's plane is.
@@ -72,8 +73,8 @@ impl Cells {
         self.table.iter_mut().for_each(|place| place.0[ENTRIES] |= WALLS);
     }
 
-    /// Every place near a wall, column by column along the steep axis, so that a slanted wall costs what it covers and
-    /// not its whole box.
+    /// Calls `found` with every place near a wall, column by column along the steep axis, so that a slanted wall costs what
+    /// it covers and not its whole box.
     fn places_near(&self, slab: &Slab, mut found: impl FnMut(u32)) {
         let Slab { low, high, steep, .. } = *slab;
         // where the table is folded or the outermost cubes reach to infinity, a number stands for many cubes, and the
