@@ -1,18 +1,21 @@
 //! `carom measure --crowd N`: figures of crowds beyond the horizon, at once or in parts.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::accuracy::from_its_start;
 use super::arguments::Measure;
-use super::failure::Failure;
+use super::failure::{Failure, note};
+use super::origin::{command, machine};
 use super::output::Output;
 use super::progress::{STEPS, progress_bar};
 use super::signals::Signals;
 use super::target::{Target, refuse_shared};
 use crate::export::{CrowdRow, Format, Row, Table, is_crowd_part, read_crowd_runs};
-use crate::measure::{self, Budget, CrowdPlan, Ladder, PlacedRun, SceneCrowds, Shard};
+use crate::measure::{self, Budget, CrowdPlan, Ladder, PlacedRun, Rung, SceneCrowds, Shard};
+use crate::physics::{Effect, knobs};
 use crate::printable;
 use crate::scene;
 
@@ -29,11 +32,10 @@ pub(super) fn crowd(arguments: &Measure, seeds: usize, ladder: Ladder, signals: 
     let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
     opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
     let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
-    refuse_shared(&outputs(arguments), &inputs)?;
+    refuse_shared(&arguments.outputs(), &inputs)?;
     let files = Files::open(arguments)?;
-    let (dt, tolerances) = (ladder.dt.unwrap_or(CROWD.0.to_vec()), ladder.tolerances.unwrap_or(vec![CROWD.1]));
     let plan = CrowdPlan {
-        rungs: Ladder { methods: ladder.methods, dt: Some(dt), tolerances: Some(tolerances) }.rungs(),
+        rungs: rungs(ladder),
         seeds: seeds as u64,
         budget: Budget { cpu: arguments.timeout.unwrap_or(f64::INFINITY), changes: MOST.1, ..Budget::counted(MOST.0) },
         shard: arguments.shard.unwrap_or(Shard::WHOLE),
@@ -49,16 +51,34 @@ pub(super) fn crowd(arguments: &Measure, seeds: usize, ladder: Ladder, signals: 
     let mut runs = Vec::new();
     for opened in &opened {
         let subject = (opened.key.as_str(), &opened.scene);
-        let found = measure::crowd_runs(subject, &plan, &|| signals.check().is_ok(), &advance);
-        runs.extend(found.ok_or_else(|| signals.check().err().unwrap_or(Failure::Told))?);
+        runs.extend(measure::crowd_runs(subject, &plan, &|| signals.check().is_ok(), &advance));
     }
     bar.finish_and_clear();
+    let (interrupted, done) = (signals.check(), runs.len());
+    if interrupted.is_err() && done == 0 {
+        note(&format!("interrupted: none of {wanted} runs is done; nothing is written"));
+        return interrupted;
+    }
     let placed = runs.iter().map(|run| PlacedRun { place: String::new(), run: run.clone() });
     let scenes = measure::gather(placed).map_err(|error| Failure::Failed(error.to_string()))?;
     match arguments.shard {
-        None => files.write(&rows(&scenes), &scenes),
-        Some(_) => files.write(&runs, &scenes),
+        None => files.write(&rows(&scenes), &scenes)?,
+        Some(_) => files.write(&runs, &scenes)?,
     }
+    if interrupted.is_err() {
+        note(&format!("interrupted: {done} of {wanted} runs are done and kept"));
+    }
+    interrupted
+}
+
+/// The settings of a crowd: a step and half of it, unless steps are listed; of a method in which a step changes nothing but the cost
+/// the longer one.
+fn rungs(ladder: Ladder) -> Vec<Rung> {
+    let listed = ladder.dt.is_some();
+    let (dt, tolerances) = (ladder.dt.unwrap_or(CROWD.0.to_vec()), ladder.tolerances.unwrap_or(vec![CROWD.1]));
+    let all = Ladder { methods: ladder.methods, dt: Some(dt), tolerances: Some(tolerances) }.rungs();
+    let differs = |rung: &Rung| listed || knobs(rung.method).dt != Effect::Cost || rung.dt == Some(CROWD.0[0]);
+    all.into_iter().filter(differs).collect()
 }
 
 /// Whether the files to be merged are parts of a crowd: the first of them says.
@@ -88,26 +108,21 @@ fn rows(scenes: &[SceneCrowds]) -> Vec<CrowdRow> {
     scenes.iter().flat_map(measure::crowd_rows).collect()
 }
 
-fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 2] {
-    [("--csv", arguments.csv.as_ref()), ("--json", arguments.json.as_ref())]
-}
-
 /// Where the results go, opened before any work is done for nothing.
 struct Files {
     csv: Option<Output>,
     json: Option<Output>,
+    svg: Option<Output>,
     /// Whether the report has standard output for itself.
     report_on_stdout: bool,
 }
 
 impl Files {
     fn open(arguments: &Measure) -> Result<Files, Failure> {
-        if arguments.svg.is_some() {
-            return Err(Failure::Usage("--svg draws no crowds; write them with --csv or --json".into()));
-        }
         let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
-        let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
-        Ok(Files { csv: open(&arguments.csv)?, json: open(&arguments.json)?, report_on_stdout: !taken })
+        let taken = arguments.outputs().iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
+        let (csv, svg, json) = (open(&arguments.csv)?, open(&arguments.svg)?, open(&arguments.json)?);
+        Ok(Files { csv, json, svg, report_on_stdout: !taken })
     }
 
     fn write<R: Row>(self, rows: &[R], scenes: &[SceneCrowds]) -> Result<(), Failure> {
@@ -116,6 +131,11 @@ impl Files {
             let mut table = Table::new::<R>(format, file)?;
             rows.iter().try_for_each(|row| table.write(row))?;
             table.finish()?.finish()?;
+        }
+        if let Some(mut svg) = self.svg {
+            let about = format!("{}; {}", command(), machine());
+            svg.write_all(measure::crowd_figure(scenes, &about).as_bytes())?;
+            svg.finish()?;
         }
         let text: Vec<String> = scenes.iter().map(measure::crowd_report).collect();
         Output::report(&text.join("\n"), self.report_on_stdout)

@@ -6,6 +6,7 @@ use std::thread;
 use super::accuracy::from_its_start;
 use super::arguments::Measure;
 use super::failure::{Failure, note};
+use super::origin::{command, machine};
 use super::output::Output;
 use super::progress::{STEPS, progress_bar};
 use super::signals::Signals;
@@ -16,9 +17,9 @@ use crate::printable;
 use crate::scene::{self, Method, Opened};
 
 pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
-    refuse_shared(&outputs(arguments), &[])?;
+    refuse_shared(&arguments.outputs(), &[])?;
     let merged: Vec<_> = arguments.merge.iter().map(|path| ("the part", path.as_path())).collect();
-    refuse_shared(&outputs(arguments), &merged)?;
+    refuse_shared(&arguments.outputs(), &merged)?;
     if let Some(seeds) = arguments.crowd {
         return super::crowd::crowd(arguments, seeds, ladder(arguments), signals);
     }
@@ -41,10 +42,6 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
         note(&format!("interrupted: {done} of {} settings are done and kept", measured.wanted));
     }
     interrupted
-}
-
-fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 3] {
-    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref()), ("--json", arguments.json.as_ref())]
 }
 
 /// Which methods compete on the front: `exact`, the yardstick, only if it was asked for.
@@ -70,7 +67,7 @@ fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
     let opened = opened.map_err(|error| Failure::Failed(error.to_string()))?;
     opened.iter().try_for_each(|opened| from_its_start(&opened.scene, "measure"))?;
     let inputs: Vec<_> = opened.iter().filter_map(|opened| Some(("the scene", opened.path.as_deref()?))).collect();
-    refuse_shared(&outputs(arguments), &inputs)?;
+    refuse_shared(&arguments.outputs(), &inputs)?;
     let ladder = ladder(arguments);
     opened.iter().filter_map(|opened| endless(opened, &ladder)).for_each(|warning| note(&warning));
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
@@ -108,7 +105,7 @@ struct Files {
 impl Files {
     fn open(arguments: &Measure) -> Result<Files, Failure> {
         let open = |target: &Option<Target>| target.as_ref().map(Output::open).transpose();
-        let taken = outputs(arguments).iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
+        let taken = arguments.outputs().iter().any(|(_, target)| target.is_some_and(Target::is_stdout));
         let (csv, svg, json) = (open(&arguments.csv)?, open(&arguments.svg)?, open(&arguments.json)?);
         Ok(Files { csv, svg, json, report_on_stdout: !taken })
     }
@@ -146,20 +143,4 @@ fn read_all(paths: &[std::path::PathBuf]) -> Result<Vec<Placed>, Failure> {
         all.extend(rows.into_iter().map(|(line, row)| Placed { place: format!("{name}:{line}"), row }));
     }
     Ok(all)
-}
-
-/// What the timings are of: processor, cores, system, version.
-fn machine() -> String {
-    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    let model = model.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    let (system, version) = (std::env::consts::OS, env!("CARGO_PKG_VERSION"));
-    printable::escaped(&format!("{model}, {cores} cores, {system}, carom {version}"))
-}
-
-/// The command line that was given.
-fn command() -> String {
-    let words: Vec<String> = std::env::args_os().skip(1).map(|word| printable::name(&word)).collect();
-    format!("carom {}", words.join(" "))
 }
