@@ -26,7 +26,7 @@ pub struct Certificate {
     /// Impacts of which `exact` alone says that they come before another one of the same sphere at the same time: by symmetry or
     /// touch, where the law leaves the order open.
     pub ties: u64,
-    /// Pairs of bodies that were looked at to show that no other contact comes.
+    /// Pairs of bodies that were looked at to show that no other contact comes; a piece of a curved motion counts as thousands.
     pub looks: u64,
     growth: Growth,
     places: Vec<[Double; 3]>,
@@ -144,8 +144,11 @@ impl Pursuit {
         let last = ending.as_ref().map_or(until, |ending| ending.time.min(until));
         let doubt = shadow.first_doubt(last.into());
         let until = doubt.as_ref().map_or(last, |doubt| doubt.time.min(last));
-        // as bodies come together for the contact that ends it, nothing shows that they do not touch
-        let known = |doubt: &Ending| ending.as_ref().is_some_and(|ending| ending.bodies == doubt.bodies);
+        // as bodies come together for the contact that ends it, or amid impacts of one instant, nothing shows that they do not touch
+        let known = |doubt: &Ending| {
+            let at_once = |ending: &Ending| doubt.time >= ending.time * (1.0 - SAME_TIME);
+            ending.as_ref().is_some_and(|ending| ending.bodies == doubt.bodies || at_once(ending))
+        };
         let ending = doubt.filter(|doubt| !known(doubt)).or(ending);
         let t = Double::from(until);
         let mut growth = shadow.growth.clone();
@@ -153,7 +156,8 @@ impl Pursuit {
         let error = shadow.bodies.iter().map(|body| body.error(t)).fold(shadow.error, f64::max);
         let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
         let ending = ending.map(|ending| Ending { time: until, ..ending });
-        let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t);
+        // where a motion is curved, it has been compared with that of `exact` at times told, and not at this one
+        let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t && body.course(t).bend.is_none());
         let (ties, looks) = (shadow.ties, shadow.looks);
         (Certificate { until, error, ending, events, ties, looks, growth, places }, at_its_end)
     }

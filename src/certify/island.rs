@@ -12,6 +12,9 @@ use super::support::{self, MOST_CONTACTS, Prop, ROUNDING};
 use super::vector::Vector;
 use crate::physics::Kind;
 
+/// As how many looks at pairs of bodies a contact in a series counts: it takes as long.
+const SERIES: u64 = 5000;
+
 /// Spheres that lean on each other, at one time.
 pub(super) struct Island {
     pub(super) t: Double,
@@ -122,6 +125,7 @@ impl Shadow {
         island.pushes = kept.pushes;
         island.keep(&kept.closed);
         if let Some(turning) = island.turning([&v, &a], scales) {
+            self.looks += SERIES * island.contacts.len() as u64;
             let motion = island.bend(v, &pulls, &masses).and_then(|series| {
                 let radius = bodies.iter().map(|&j| self.bodies[j].radius.value()).fold(f64::INFINITY, f64::min);
                 let length = series.length(radius, self.until - time)?;

@@ -12,6 +12,9 @@ use super::support::ROUNDING;
 use super::vector::Vector;
 use crate::physics::Kind;
 
+/// Changes at one time, at most: a sphere goes over an edge once.
+const MOST_AT_ONCE: u32 = 100;
+
 /// The earliest of what comes next.
 struct Earliest {
     t: Double,
@@ -88,6 +91,7 @@ impl Shadow {
 
     /// What comes by itself up to `t`, s.
     pub(super) fn pass(&mut self, t: Double) -> Result<(), Ending> {
+        let mut last = (Double::ZERO, 0);
         loop {
             let due = self.bodies.iter().enumerate().filter_map(|(i, body)| body.due.map(|due| (i, due)));
             let Some((i, due)) = due.reduce(|one, two| if two.1.t < one.1.t { two } else { one }) else {
@@ -95,6 +99,10 @@ impl Shadow {
             };
             if due.t > t {
                 return Ok(());
+            }
+            last = (due.t, if due.t == last.0 { last.1 + 1 } else { 0 });
+            if last.1 > MOST_AT_ONCE {
+                return Err(Ending { time: due.t.value(), bodies: None, cause: Cause::CurvedRest });
             }
             self.change_by_itself(i, due)?;
             self.settle()?;

@@ -166,6 +166,10 @@ fn where_it_cannot_follow_it_ends_and_says_why() {
         let ending = certificate.ending.expect("it ends before the run");
         (ending.cause, certificate.until)
     };
+    // At 2 m/s, slowed by 1 m/s², to the border 2 m ahead: it turns there.
+    let turns = vec![Sphere { force: DVec3::NEG_X, ..sphere(dvec3(18.0, 0.5, 0.0), DVec3::X * 2.0, 0.5) }];
+    let (cause, until) = of(vec![floor()], turns, 5.0);
+    assert!(cause == Cause::RollsOver && (until - 2.0).abs() < 1e-5, "{cause:?} at {until}");
     // Past a standing sphere at 2 m/s, at a distance that rounding does not tell from a touch.
     let grazes = vec![sphere(DVec3::Y * 0.5, DVec3::ZERO, 0.5), sphere(dvec3(-2.0, 0.5, 1.0), DVec3::X * 2.0, 0.5)];
     let (cause, until) = of(vec![floor()], grazes, 5.0);
