@@ -402,6 +402,6 @@ fn a_mirror_image_has_the_mirrored_solution() {
 #[test]
 fn the_order_of_islands_and_their_parts_follows_from_the_indices() {
     let found = islands(&[(5, Some(3)), (1, None), (3, Some(2)), (8, Some(1))]);
-    let bodies: Vec<_> = found.iter().map(|island| island.bodies.clone()).collect();
+    let bodies: Vec<_> = found.iter().map(|island| island.bodies.to_vec()).collect();
     assert_eq!(bodies, [vec![2, 3, 5], vec![1, 8]]);
 }

@@ -60,10 +60,11 @@ impl Instant {
 
     /// Whether a contact that is about to collide once more at this instant has collapsed.
     pub(super) fn collapses(&mut self, model: &Model, trajectories: &Trajectories, contact: &ContactState) -> bool {
-        if self.events <= LONG_CHAIN {
+        let ((kind, a, b), approach_speed) = (contact.key, -contact.v_n);
+        let faint = approach_speed * approach_speed < f64::MIN_POSITIVE;
+        if self.events <= LONG_CHAIN && !faint {
             return false;
         }
-        let ((kind, a, b), approach_speed) = (contact.key, -contact.v_n);
         let (restitution, other) = match kind {
             Kind::Wall => (model.law.wall_restitution, 0.0),
             Kind::Pair => (model.law.restitution, model.acceleration(b).length()),
@@ -71,7 +72,8 @@ impl Instant {
         // no approach slower than that can be told from none
         let least = trajectories.clock_ulp() * (model.acceleration(a).length() + other);
         let (count, fastest) = self.chain.entry(contact.key).or_default();
-        *count = count.saturating_add(1);
+        // what each impact divides by hundreds is soon so slow that numbers have no square of it, and no direction
+        *count = if faint { u32::MAX } else { count.saturating_add(1) };
         *fastest = fastest.max(approach_speed).max(trajectories.speeds(contact.key));
         let dies = f64::from(*count) * (1.0 - restitution) > DECAY && u64::from(*count) > LONG_CHAIN;
         let rounds = approach_speed <= least.max(CHAIN * *fastest);

@@ -32,7 +32,7 @@ fn island(seed: u64, bodies: usize, contacts: usize) -> Problem {
     };
     let rows = normals.into_iter().enumerate().map(row).collect();
     let weight: f64 = free.iter().zip(&inverse_mass).map(|(u, w)| u.length_squared() / w).sum();
-    Problem { inverse_mass, free, rows, weight: weight.sqrt() }
+    Problem { inverse_mass: inverse_mass.into(), free: free.into(), rows, weight: weight.sqrt() }
 }
 
 /// Largest distance between two answers, relative to the problem's size.
@@ -87,6 +87,7 @@ fn sweeping_says_that_a_heavy_sphere_on_a_light_column_has_defeated_it() {
     inverse_mass[9] = 1e-8;
     let row = |a: usize| Row { a, b: a.checked_sub(1), normal: DVec3::Y, offset: 0.0 };
     let free = vec![DVec3::NEG_Y * 9.8; 10];
+    let (inverse_mass, free) = (inverse_mass.into(), free.into());
     let problem = Problem { inverse_mass, free, rows: (0..10).map(row).collect(), weight: 9.8e4 };
     let swept = gauss_seidel::solve(&problem, vec![0.0; 10], 2000);
     assert!(!swept.converged);

@@ -7,6 +7,7 @@ use super::active_set::DEPENDENT;
 use super::factor::{Append, Factor};
 use super::gram;
 use super::problem::Row;
+use super::short::Short;
 
 /// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0: every row holds and may pull. For the time between events, while it is known
 /// which contacts hold. Returns u by body and λ by row; a row that depends on others is left to them, with λ = 0.
@@ -31,6 +32,24 @@ pub fn restore(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> Vec<DVec3>
         _ => {
             let found = gram::bind(inverse_mass, free, rows, true);
             found.unwrap_or_else(|| bind_all(inverse_mass, free, rows, NEARLY_DEPENDENT)).0
+        }
+    }
+}
+
+/// [`restore`] of places and velocities (m/s) at once: the shifts (m) that the rows with their offsets, gaps in m, ask for, and
+/// the velocities that they leave with none.
+pub fn restore_both(inverse_mass: &[f64], velocity: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<DVec3>) {
+    let still: Short<DVec3> = Short::from_elem(DVec3::ZERO, velocity.len());
+    let level = |row: &Row| Row { offset: 0.0, ..*row };
+    if let [row] = rows {
+        return (bind_one(inverse_mass, &still, row).0, bind_one(inverse_mass, velocity, &level(row)).0);
+    }
+    let level: Short<Row> = rows.iter().map(level).collect();
+    match gram::Skyline::of_like_masses(inverse_mass, rows, true) {
+        Some(factor) => (factor.bind(inverse_mass, &still, rows).0, factor.bind(inverse_mass, velocity, &level).0),
+        None => {
+            let of = |free: &[DVec3], rows: &[Row]| bind_all(inverse_mass, free, rows, NEARLY_DEPENDENT).0;
+            (of(&still, rows), of(velocity, &level))
         }
     }
 }

@@ -34,32 +34,7 @@ pub(super) fn bind(
     rows: &[Row],
     leaves_out: bool,
 ) -> Option<(Vec<DVec3>, Vec<f64>)> {
-    let (light, heavy) =
-        inverse_mass.iter().fold((0.0, f64::INFINITY), |(most, least): (f64, f64), &w| (most.max(w), least.min(w)));
-    if light > LIKE_MASSES * heavy {
-        return None;
-    }
-    let factor = Skyline::of(inverse_mass, rows, leaves_out)?;
-    let mut u = free.to_vec();
-    let mut multipliers = vec![0.0; rows.len()];
-    let mut change: SmallVec<[f64; FEW]> = smallvec![0.0; factor.held.len()];
-    for _ in 0..if factor.least < DOUBTFUL { 3 } else { 2 } {
-        for (change, held) in change.iter_mut().zip(&factor.held) {
-            let row = &rows[held.row];
-            let relative = u[row.a] - row.b.map_or(DVec3::ZERO, |b| u[b]);
-            *change = -(row.normal.dot(relative) + row.offset) / held.length;
-        }
-        factor.solve(&mut change);
-        for (change, held) in change.iter().zip(&factor.held) {
-            let (row, force) = (&rows[held.row], change / held.length);
-            multipliers[held.row] += force;
-            u[row.a] += row.normal * (force * inverse_mass[row.a]);
-            if let Some(b) = row.b {
-                u[b] -= row.normal * (force * inverse_mass[b]);
-            }
-        }
-    }
-    Some((u, multipliers))
+    Some(Skyline::of_like_masses(inverse_mass, rows, leaves_out)?.bind(inverse_mass, free, rows))
 }
 
 /// A row that holds.
@@ -76,7 +51,7 @@ struct Held {
 }
 
 /// The Cholesky factor, row by row. Of few rows it asks for no memory: it is made millions of times a second.
-struct Skyline {
+pub(super) struct Skyline {
     held: SmallVec<[Held; FEW]>,
     entries: SmallVec<[f64; FEW * (FEW + 1) / 2]>,
     /// Least square of what was new of a column.
@@ -84,6 +59,37 @@ struct Skyline {
 }
 
 impl Skyline {
+    /// The factor of these rows; none where [`bind`] has no answer.
+    pub(super) fn of_like_masses(inverse_mass: &[f64], rows: &[Row], leaves_out: bool) -> Option<Skyline> {
+        let (light, heavy) =
+            inverse_mass.iter().fold((0.0, f64::INFINITY), |(most, least): (f64, f64), &w| (most.max(w), least.min(w)));
+        if light > LIKE_MASSES * heavy { None } else { Skyline::of(inverse_mass, rows, leaves_out) }
+    }
+
+    /// u by body and λ by row, for the rows of the factor with any offsets.
+    pub(super) fn bind(&self, inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<f64>) {
+        let mut u = free.to_vec();
+        let mut multipliers = vec![0.0; rows.len()];
+        let mut change: SmallVec<[f64; FEW]> = smallvec![0.0; self.held.len()];
+        for _ in 0..if self.least < DOUBTFUL { 3 } else { 2 } {
+            for (change, held) in change.iter_mut().zip(&self.held) {
+                let row = &rows[held.row];
+                let relative = u[row.a] - row.b.map_or(DVec3::ZERO, |b| u[b]);
+                *change = -(row.normal.dot(relative) + row.offset) / held.length;
+            }
+            self.solve(&mut change);
+            for (change, held) in change.iter().zip(&self.held) {
+                let (row, force) = (&rows[held.row], change / held.length);
+                multipliers[held.row] += force;
+                u[row.a] += row.normal * (force * inverse_mass[row.a]);
+                if let Some(b) = row.b {
+                    u[b] -= row.normal * (force * inverse_mass[b]);
+                }
+            }
+        }
+        (u, multipliers)
+    }
+
     fn of(inverse_mass: &[f64], rows: &[Row], leaves_out: bool) -> Option<Skyline> {
         let mut factor = Skyline {
             held: SmallVec::with_capacity(rows.len()),

@@ -25,12 +25,14 @@ mod island;
 mod pivoting;
 mod problem;
 mod resting;
+mod short;
 mod solution;
 mod solve;
 
-pub use equality::{bind, restore};
+pub use equality::{bind, restore, restore_both};
 pub use island::{Island, islands};
 pub use problem::Row;
 pub use resting::{Bodies, Fate, Held, Resting, Surface, accelerations, hold, velocities};
+pub use short::Short;
 pub use solution::{Report, Solution, Solver};
 pub use solve::solve;

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::gram;
 use super::problem::{Problem, ROUNDING, Row};
+use super::short::Short;
 
 /// Exchanges of everything that is wrong without fewer being wrong.
 const PATIENCE: u32 = 3;
@@ -22,8 +23,8 @@ pub(super) type Answer = (Vec<DVec3>, Vec<f64>, usize);
 /// Solves the problem from the multipliers `guess` (≥ 0; empty or all 0: from what approaches); none where it leads nowhere.
 pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Option<Answer> {
     let count = problem.rows.len();
-    let rounding: Vec<f64> = (0..count).map(|row| ROUNDING * problem.size(row)).collect();
-    let mut carries: Vec<bool> = guess.iter().map(|&load| load > 0.0).collect();
+    let rounding: Short<f64> = (0..count).map(|row| ROUNDING * problem.size(row)).collect();
+    let mut carries: Short<bool> = guess.iter().map(|&load| load > 0.0).collect();
     if !carries.contains(&true) {
         carries = (0..count).map(|row| problem.opening(row, &problem.free) < -rounding[row]).collect();
     }
@@ -34,7 +35,7 @@ pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Option<Answer> {
             true => multipliers[row] < 0.0,
             false => problem.opening(row, &u) < -rounding[row],
         };
-        let wrong: Vec<usize> = (0..count).filter(|&row| is_wrong(row)).collect();
+        let wrong: Short<usize> = (0..count).filter(|&row| is_wrong(row)).collect();
         let Some(&last) = wrong.last() else {
             let finite = u.iter().all(|u| u.is_finite());
             return finite.then_some((u, multipliers, passes));
@@ -54,8 +55,8 @@ pub(super) fn solve(problem: &Problem, guess: &[f64]) -> Option<Answer> {
 
 /// u and all multipliers if exactly these contacts hold; a contact that depends on others carries nothing.
 fn held(problem: &Problem, carries: &[bool]) -> Option<(Vec<DVec3>, Vec<f64>)> {
-    let holding: Vec<usize> = (0..carries.len()).filter(|&row| carries[row]).collect();
-    let rows: Vec<Row> = holding.iter().map(|&row| problem.rows[row]).collect();
+    let holding: Short<usize> = (0..carries.len()).filter(|&row| carries[row]).collect();
+    let rows: Short<Row> = holding.iter().map(|&row| problem.rows[row]).collect();
     let (u, loads) = gram::bind(&problem.inverse_mass, &problem.free, &rows, true)?;
     let mut multipliers = vec![0.0; carries.len()];
     holding.into_iter().zip(loads).for_each(|(row, load)| multipliers[row] = load);

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::island::Island;
+use super::short::Short;
 
 /// Relative size below which what is left of cancelling terms counts as rounding: 64 ulp. A pile's sphere has at most
 /// twelve neighbours, each of three products; smaller and noise reads as motion, larger and slow releases are missed.
@@ -34,10 +35,10 @@ pub struct Row {
 /// One island's problem.
 #[derive(Debug, Clone)]
 pub(super) struct Problem {
-    pub(super) inverse_mass: Vec<f64>,
-    pub(super) free: Vec<DVec3>,
+    pub(super) inverse_mass: Short<f64>,
+    pub(super) free: Short<DVec3>,
     /// In local indices.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Short<Row>,
     /// √(Σ m u₀²): every projection is smaller, so rounding of a body's u is this times ulp/√m.
     pub(super) weight: f64,
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::problem::Row;
+use super::short::Short;
 use super::solution::Solution;
 use super::solve::solve_from;
 
@@ -64,7 +65,7 @@ pub struct Bodies<'a> {
 
 /// The velocity problem: v⁺ = v + M⁻¹ Jᵀ Λ, 0 ≤ Λ ⊥ J v⁺ ≥ 0. It never adds kinetic energy.
 pub fn velocities(bodies: Bodies, contacts: &[Resting]) -> Solution {
-    let rows: Vec<Row> = contacts.iter().map(|contact| row(contact, 0.0)).collect();
+    let rows: Short<Row> = contacts.iter().map(|contact| row(contact, 0.0)).collect();
     solve_from(bodies.inverse_mass, bodies.velocity, &rows, &[])
 }
 
@@ -74,7 +75,7 @@ pub fn accelerations(bodies: Bodies, contacts: &[Resting], guess: &[f64]) -> Sol
     let relative =
         |contact: &Resting| bodies.velocity[contact.a] - contact.b.map_or(DVec3::ZERO, |other| bodies.velocity[other]);
     let curved = |contact| row(contact, contact.surface.curvature_term(contact.normal, relative(contact)));
-    let rows: Vec<Row> = contacts.iter().map(curved).collect();
+    let rows: Short<Row> = contacts.iter().map(curved).collect();
     solve_from(bodies.inverse_mass, bodies.applied, &rows, guess)
 }
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::gauss_seidel::{self, PRECISION};
 use super::island::islands;
 use super::problem::{Problem, ROUNDING, Row};
+use super::short::Short;
 use super::solution::{Report, Solution, Solver};
 use super::{active_set, enumerate, pivoting};
 
@@ -34,8 +35,8 @@ pub fn solve(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) 
 /// same u, but for its last bits.
 pub(super) fn solve_from(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], guess: &[f64]) -> Solution {
     by_islands(inverse_mass, free, rows, |problem, at| {
-        let guess: Vec<f64> = at.iter().map(|&row| guess.get(row).map_or(0.0, |&g| g.max(0.0))).collect();
-        Part::pivoted(problem, &guess).unwrap_or_else(|| Part::of(problem, guess))
+        let guess: Short<f64> = at.iter().map(|&row| guess.get(row).map_or(0.0, |&g| g.max(0.0))).collect();
+        Part::pivoted(problem, &guess).unwrap_or_else(|| Part::of(problem, guess.into_vec()))
     })
 }
 
@@ -46,10 +47,10 @@ fn by_islands(
     rows: &[Row],
     part: impl Fn(&Problem, &[usize]) -> Part,
 ) -> Solution {
-    let links: Vec<_> = rows.iter().map(|row| (row.a, row.b)).collect();
+    let links: Short<_> = rows.iter().map(|row| (row.a, row.b)).collect();
     let islands = islands(&links);
     let mut solution = Solution { multipliers: vec![0.0; rows.len()], ..Solution::default() };
-    let mut bodies: Vec<(usize, DVec3, f64)> = Vec::new();
+    let mut bodies: Short<(usize, DVec3, f64)> = Short::new();
     for island in &islands {
         let problem = Problem::new(inverse_mass, free, rows, island);
         let part = part(&problem, &island.contacts);
@@ -62,7 +63,9 @@ fn by_islands(
             bodies.push((body, if u.length() <= rounding { DVec3::ZERO } else { u }, rounding));
         }
     }
-    bodies.sort_unstable_by_key(|&(body, ..)| body);
+    if islands.len() > 1 {
+        bodies.sort_unstable_by_key(|&(body, ..)| body);
+    }
     solution.bodies = bodies.iter().map(|entry| entry.0).collect();
     solution.vectors = bodies.iter().map(|entry| entry.1).collect();
     solution.rounding = bodies.iter().map(|entry| entry.2).collect();
@@ -178,7 +181,7 @@ impl Part {
     }
 
     /// How good the answer is, and the size of rounding per body.
-    fn report(&self, problem: &Problem) -> (Report, Vec<f64>) {
+    fn report(&self, problem: &Problem) -> (Report, Short<f64>) {
         let left = |row: usize| problem.residual(row, &self.u, self.multipliers[row]);
         let residual = (0..self.multipliers.len()).map(left).fold(0.0, f64::max);
         let converged = self.worst(problem) <= 1.0;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed, On, geometry};
-use crate::physics::support::{Row, bind, restore};
+use crate::physics::support::{Row, Short, bind, restore, restore_both};
 use crate::physics::wall_parts::{BORDER, room};
 
 /// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
@@ -27,13 +27,13 @@ const HEALED: f64 = 1e-10;
 
 /// The differential equation of an island while the contacts that carry a load now go on holding.
 pub(crate) struct ConstrainedMotion<'a> {
-    holding: Vec<Closed<'a>>,
+    holding: Short<Closed<'a>>,
     /// The gaps to keep, m: what rounding, or the scene, has left of 0. Nothing must jump, but of small overlaps half is
     /// healed by every arc: where a contact opens and closes over and over, they would add up.
-    gaps: Vec<f64>,
+    gaps: Short<f64>,
     /// Contacts that stay closed without carrying anything.
-    idle: Vec<Closed<'a>>,
-    inverse_mass: Vec<f64>,
+    idle: Short<Closed<'a>>,
+    inverse_mass: Short<f64>,
 }
 
 impl<'a> ConstrainedMotion<'a> {
@@ -43,7 +43,7 @@ impl<'a> ConstrainedMotion<'a> {
             let of = |(_, loaded): &(&Closed<'a>, &bool)| **loaded == wanted;
             contacts.iter().zip(loaded).filter(of).map(|(&contact, _)| contact).collect()
         };
-        let (holding, idle): (Vec<Closed<'a>>, _) = (pick(true), pick(false));
+        let (holding, idle): (Short<Closed<'a>>, _) = (pick(true), pick(false));
         let kept = |contact: &Closed| {
             let gap = geometry(bodies, *contact).1;
             let small = -HEALED * bodies[contact.a].r;
@@ -54,13 +54,13 @@ impl<'a> ConstrainedMotion<'a> {
     }
 
     /// A row per holding contact; its offset is chosen from (gap in m, k in m/s²).
-    fn rows(&self, bodies: &[Body], offset: impl Fn(f64, f64) -> f64) -> Vec<Row> {
+    fn rows(&self, bodies: &[Body], offset: impl Fn(f64, f64) -> f64) -> Short<Row> {
         self.holding.iter().map(|&contact| row(bodies, contact, &offset)).collect()
     }
 
     /// Accelerations, m/s², and forces of the holding contacts, N.
     pub(crate) fn accelerations(&self, bodies: &[Body]) -> (Vec<DVec3>, Vec<f64>) {
-        let applied: Vec<DVec3> = bodies.iter().map(|body| body.applied).collect();
+        let applied: Short<DVec3> = bodies.iter().map(|body| body.applied).collect();
         bind(&self.inverse_mass, &applied, &self.rows(bodies, |_, curvature| curvature))
     }
 
@@ -90,30 +90,32 @@ impl<'a> ConstrainedMotion<'a> {
     /// Puts the bodies back on the holding contacts by the least change in the metric of the masses: gaps as they were,
     /// J v = 0. The gap left by a step is so small that one step of Newton's method closes it.
     pub(crate) fn restore(&self, bodies: &mut [Body]) {
-        let still = vec![DVec3::ZERO; bodies.len()];
+        let velocity: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let mut rows = self.rows(bodies, |gap, _| gap);
         rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
-        let shift = restore(&self.inverse_mass, &still, &rows);
-        bodies.iter_mut().zip(shift).for_each(|(body, shift)| body.x += shift);
-        self.restore_velocities(bodies);
+        let (shift, v) = restore_both(&self.inverse_mass, &velocity, &rows);
+        for (body, (shift, v)) in bodies.iter_mut().zip(shift.into_iter().zip(v)) {
+            (body.x, body.v) = (body.x + shift, v);
+        }
     }
 
+    /// Puts the velocities back on the holding contacts: J v = 0.
     pub(crate) fn restore_velocities(&self, bodies: &mut [Body]) {
-        let velocity: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let velocity: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let v = restore(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0));
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 
-    /// What later margins are measured from.
-    pub(crate) fn marks(&self, bodies: &[Body]) -> Marks {
-        let openings = self.openings(bodies, &self.accelerations(bodies).0);
+    /// What later margins are measured from: the bodies and their accelerations, m/s².
+    pub(crate) fn marks(&self, bodies: &[Body], a: &[DVec3]) -> Marks {
+        let openings = self.openings(bodies, a);
         Marks { rooms: self.rooms(bodies), openings, gaps: self.idle_gaps(bodies) }
     }
 
     /// Distance of each contact, holding ones before idle ones, from where another part of its wall takes over, in radii;
     /// ∞ for pairs. An idle contact counts too: on the edge that two walls share, the one that carries nothing takes over
     /// when the sphere rolls on to its face.
-    pub(crate) fn rooms(&self, bodies: &[Body]) -> Vec<f64> {
+    pub(crate) fn rooms(&self, bodies: &[Body]) -> Short<f64> {
         let of = |contact: &Closed| match contact.on {
             On::Wall(face, part) => room(face, part, bodies[contact.a].x) / bodies[contact.a].r,
             On::Body(_) => f64::INFINITY,
@@ -122,12 +124,12 @@ impl<'a> ConstrainedMotion<'a> {
     }
 
     /// Gaps of the idle contacts, in radii.
-    fn idle_gaps(&self, bodies: &[Body]) -> Vec<f64> {
+    fn idle_gaps(&self, bodies: &[Body]) -> Short<f64> {
         self.idle.iter().map(|&contact| geometry(bodies, contact).1 / bodies[contact.a].r).collect()
     }
 
     /// J a + k of the idle contacts, in units of the applied acceleration.
-    pub(crate) fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Vec<f64> {
+    pub(crate) fn openings(&self, bodies: &[Body], a: &[DVec3]) -> Short<f64> {
         let of = |&contact: &Closed| {
             let row = row(bodies, contact, &|_, curvature| curvature);
             let relative = a[row.a] - row.b.map_or(DVec3::ZERO, |b| a[b]);
@@ -141,11 +143,16 @@ impl<'a> ConstrainedMotion<'a> {
     /// idle contact may still open or close.
     pub(crate) fn distance_to_change(&self, bodies: &[Body], before: &Marks) -> f64 {
         let (a, forces) = self.accelerations(bodies);
+        self.margin(bodies, (&a, &forces), before)
+    }
+
+    /// [`ConstrainedMotion::distance_to_change`] of bodies whose accelerations (m/s²) and forces of the holding contacts (N) are known.
+    pub(crate) fn margin(&self, bodies: &[Body], (a, forces): (&[DVec3], &[f64]), before: &Marks) -> f64 {
         let loads = self.holding.iter().zip(forces);
         let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
         let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
         let rooms = self.rooms(bodies).into_iter().zip(&before.rooms).map(outwards);
-        let openings = self.openings(bodies, &a).into_iter().zip(&before.openings);
+        let openings = self.openings(bodies, a).into_iter().zip(&before.openings);
         let idle = openings.map(|(opening, before)| {
             let closing = IDLE + opening - before.min(0.0);
             closing.min(BARELY + before.max(0.0) - opening)
@@ -158,9 +165,9 @@ impl<'a> ConstrainedMotion<'a> {
 
 /// Rooms, openings and gaps of idle contacts at the beginning of an arc.
 pub(crate) struct Marks {
-    rooms: Vec<f64>,
-    openings: Vec<f64>,
-    gaps: Vec<f64>,
+    rooms: Short<f64>,
+    openings: Short<f64>,
+    gaps: Short<f64>,
 }
 
 /// Largest applied acceleration, m/s²: the unit of loads.

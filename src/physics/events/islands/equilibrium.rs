@@ -10,7 +10,7 @@ use glam::DVec3;
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
 use crate::physics::events::rounding::{BRUSH, HOP, SUM};
-use crate::physics::support::{Bodies, Fate, Resting, Row, Surface, accelerations, bind, restore, velocities};
+use crate::physics::support::{Bodies, Fate, Resting, Row, Short, Surface, accelerations, bind, restore, velocities};
 
 /// How much more than rounding it may cost to stop what opens by no more than rounding.
 const DEAR: f64 = 10.0;
@@ -21,15 +21,15 @@ pub(crate) struct Settled {
     /// Accelerations, m/s², by body; those of this instant if the motion is curved.
     pub(crate) a: Vec<DVec3>,
     /// Impulses that stopped what still approached, N s, by contact.
-    pub(crate) impulses: Vec<f64>,
+    pub(crate) impulses: Short<f64>,
     /// Normal velocities before they were stopped, m/s, by contact.
-    pub(crate) v_n: Vec<f64>,
+    pub(crate) v_n: Short<f64>,
     /// Whether the impulse of a contact changed a velocity by more than what counts as closed.
-    pub(crate) struck: Vec<bool>,
+    pub(crate) struck: Short<bool>,
     /// Support forces, N, by contact.
     pub(crate) forces: Vec<f64>,
     /// What becomes of every contact.
-    pub(crate) fate: Vec<Fate>,
+    pub(crate) fate: Short<Fate>,
     /// Whether some contact that holds turns.
     pub(crate) curved: bool,
     /// Whether both problems were solved to rounding.
@@ -42,32 +42,33 @@ pub(crate) struct Settled {
 /// clock or the coordinates can tell is closed.
 /// `loads` (N, by contact) are what they carried last.
 pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f64], tick: f64) -> Settled {
-    let (resting, gaps): (Vec<Resting>, Vec<f64>) = contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
-    let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
-    let (applied, velocity): (Vec<DVec3>, Vec<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
+    let (resting, gaps): (Short<Resting>, Short<f64>) =
+        contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
+    let inverse_mass: Short<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
+    let (applied, velocity): (Short<DVec3>, Short<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let slack: Vec<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
+    let slack: Short<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
     let (impulses, stopped) = stop_approaches(bodies, all, &resting, &slack);
     let opens = |contact: &Resting| {
         let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
     };
-    let closed: Vec<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
-    let touching: Vec<Resting> = closed.iter().map(|&index| resting[index]).collect();
-    let after: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-    let guess: Vec<f64> = closed.iter().map(|&index| loads[index]).collect();
+    let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
+    let touching: Short<Resting> = closed.iter().map(|&index| resting[index]).collect();
+    let after: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
+    let guess: Short<f64> = closed.iter().map(|&index| loads[index]).collect();
     let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];
         change(contact.a) || contact.b.is_some_and(change)
     };
     let mut settled = Settled {
-        a: applied.clone(),
+        a: applied.to_vec(),
         struck: resting.iter().zip(&impulses).map(strikes).collect(),
         v_n: resting.iter().map(|contact| relative(contact, &|body| velocity[body]).dot(contact.normal)).collect(),
         impulses,
         forces: vec![0.0; contacts.len()],
-        fate: vec![Fate::Opening; contacts.len()],
+        fate: Short::from_elem(Fate::Opening, contacts.len()),
         curved: false,
         converged: stopped && held.converged(),
     };
@@ -89,8 +90,8 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
 }
 
 /// Stops what approaches, by impulses (N s, by contact); whether they were found to rounding.
-fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack: &[f64]) -> (Vec<f64>, bool) {
-    let none = || vec![0.0; resting.len()];
+fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack: &[f64]) -> (Short<f64>, bool) {
+    let none = || Short::from_elem(0.0, resting.len());
     if nothing_approaches(resting, all.velocity) {
         return (none(), true);
     }
@@ -99,7 +100,7 @@ fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack:
     let costs = |((body, v), slack): ((&Body, &DVec3), &f64)| body.v.distance(*v) > DEAR * slack;
     let dear = bodies.iter().zip(all.velocity).zip(slack).any(costs);
     if !(dear && approaches_by_rounding(bodies, resting, all.velocity)) {
-        return (stopped.multipliers.clone(), stopped.converged());
+        return (Short::from_slice(&stopped.multipliers), stopped.converged());
     }
     let squeezing = resting.iter().zip(&stopped.multipliers).filter(|(_, impulse)| **impulse > 0.0);
     let v = restore(all.inverse_mass, all.velocity, &rows(squeezing.map(|(contact, _)| contact)));
@@ -133,7 +134,7 @@ fn approaches_by_rounding(bodies: &[Body], resting: &[Resting], velocity: &[DVec
 }
 
 /// Contacts as rows that hold.
-fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Vec<Row> {
+fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Short<Row> {
     resting.map(|contact| Row { a: contact.a, b: contact.b, normal: contact.normal, offset: 0.0 }).collect()
 }
 
@@ -202,9 +203,9 @@ impl Settled {
     /// push one body alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
     /// stand still on both would stop the motion along them, and the one that opens lets go instead.
     fn clear_normal_velocity(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
-        let before: Vec<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let mut holds: Vec<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
-        let mut v = before.clone();
+        let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let mut holds: Short<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
+        let mut v = before.to_vec();
         // of what keeps its velocity what is left of it would add up for as long as it slides along its walls
         let steady = !self.curved && self.a.iter().all(|a| *a == DVec3::ZERO);
         let precision = |contact: &Resting| if steady && contact.b.is_none() { BRUSH } else { SUM };
@@ -219,7 +220,7 @@ impl Settled {
                 let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
                 may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
             };
-            let new: Vec<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
+            let new: Short<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
             if new.is_empty() {
                 break;
             }
@@ -230,7 +231,7 @@ impl Settled {
             let noise = SUM * before[resting[index].a].length();
             holds[index] && relative(&resting[index], &|body| before[body]).dot(resting[index].normal) > noise
         };
-        let opening: Vec<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
+        let opening: Short<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
         if !opening.is_empty() && v.iter().enumerate().any(costs) {
             opening.into_iter().for_each(|index| self.fate[index] = Fate::Opening);
             return;

@@ -1,7 +1,9 @@
 //! Which contacts rest, and the islands they form: from one event of an island to the next.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc as Shared;
+
+use glam::DVec3;
 
 use crate::physics::contact::{Key, Kind};
 use crate::physics::events::contact_state::ContactState;
@@ -12,6 +14,7 @@ use crate::physics::events::rub::Rub;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
 use crate::physics::state::State;
+use crate::physics::support::Short;
 use crate::physics::wall::Part;
 use crate::physics::wall_parts::part_ahead;
 
@@ -129,15 +132,15 @@ pub(super) fn closed<'a>(model: &'a Model, contacts: &[IslandContact]) -> Vec<Cl
 }
 
 impl Curve {
-    /// The motion of bodies from now on, whose contacts carry these forces (N).
+    /// The motion from now on of bodies with these accelerations (m/s²), whose contacts carry these forces (N).
     pub(super) fn new(
         model: &Model,
-        bodies: Vec<Body>,
+        (bodies, a): (Vec<Body>, Vec<DVec3>),
         (contacts, forces): (Vec<IslandContact>, &[f64]),
         now: f64,
     ) -> Curve {
         let loaded = forces.iter().map(|&force| force > 0.0).collect();
-        let arc = Shared::new(Arc::new(bodies, &closed(model, &contacts), loaded));
+        let arc = Shared::new(Arc::new(bodies, a, &closed(model, &contacts), loaded));
         Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
@@ -362,14 +365,13 @@ impl Rests {
 
     /// The spheres of every island that a dirty sphere belongs or is connected to, ascending.
     pub(super) fn take_dirty(&mut self) -> Vec<usize> {
-        let mut found = BTreeSet::new();
-        let mut open = std::mem::take(&mut self.dirty);
+        let mut found: Vec<usize> = Vec::new();
+        let mut open: Short<usize> = self.dirty.drain(..).collect();
         while let Some(i) = open.pop() {
-            if !found.insert(i) {
-                continue;
-            }
+            let Err(place) = found.binary_search(&i) else { continue };
+            found.insert(place, i);
             if let Some(island) = self.island(i) {
-                open.extend(&island.spheres);
+                open.extend(island.spheres.iter().copied());
             }
             for &(kind, a, b) in self.of.get(i).into_iter().flatten() {
                 open.push(a);
@@ -378,7 +380,7 @@ impl Rests {
                 }
             }
         }
-        found.into_iter().collect()
+        found
     }
 
     pub(super) fn remove_island(&mut self, i: usize, now: f64) {

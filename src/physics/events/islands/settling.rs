@@ -1,6 +1,6 @@
 //! What events do to islands: rests end, chords follow each other, and islands that have changed are solved again.
 
-use std::collections::BTreeSet;
+use glam::DVec3;
 
 use super::equilibrium::{Settled, solve_island};
 use super::resting::{Curve, Island, IslandContact, Other, closed};
@@ -14,9 +14,19 @@ use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, PAUSE, SHARED_GAP, SH
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
-use crate::physics::support::{Fate, islands};
+use crate::physics::support::{Fate, Short, islands};
 use crate::physics::wall::{Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::{part_ahead, part_end};
+
+/// An island under way to be solved.
+struct Members {
+    /// Its spheres, ascending.
+    spheres: Vec<usize>,
+    /// The spheres as bodies, in that order.
+    bodies: Vec<Body>,
+    /// Its contacts, in the order of their keys.
+    contacts: Vec<IslandContact>,
+}
 
 impl Mechanics {
     /// After an impulse on sphere `i`: a rest that is struck apart or driven together harder than rest allows is over.
@@ -162,8 +172,11 @@ impl Mechanics {
         }
         // what has just been added is solved here too
         self.rests.dirty.clear();
-        let keys: BTreeSet<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
-        let mut open: Vec<Vec<Key>> = vec![keys.into_iter().collect()];
+        let mut keys: Short<Key> = Short::new();
+        spheres.iter().for_each(|&i| keys.extend_from_slice(&self.rests.of[i]));
+        keys.sort_unstable();
+        keys.dedup();
+        let mut open: Short<Short<Key>> = Short::from_iter([keys]);
         while let Some(keys) = open.pop() {
             for connected in self.groups(&keys) {
                 if let Some(left) = self.settle_island(model, log, &connected)? {
@@ -216,16 +229,16 @@ impl Mechanics {
     }
 
     /// The connected sets of some contacts.
-    fn groups(&self, keys: &[Key]) -> Vec<Vec<Key>> {
-        let links: Vec<_> = keys.iter().map(|&(kind, a, b)| (a, (kind == Kind::Pair).then_some(b))).collect();
+    fn groups(&self, keys: &[Key]) -> Short<Short<Key>> {
+        let links: Short<_> = keys.iter().map(|&(kind, a, b)| (a, (kind == Kind::Pair).then_some(b))).collect();
         islands(&links).iter().map(|island| island.contacts.iter().map(|&c| keys[c]).collect()).collect()
     }
 
     /// Settles connected contacts; returns those that are left if some opened, for they may have fallen apart.
-    fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Vec<Key>>, Stall> {
+    fn settle_island(&mut self, model: &Model, log: &mut Log, keys: &[Key]) -> Result<Option<Short<Key>>, Stall> {
         self.rub_off(model, keys);
-        let (spheres, mut bodies, contacts) = self.island_of(model, keys);
-        let loads: Vec<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
+        let Members { spheres, mut bodies, contacts } = self.members(model, keys);
+        let loads: Short<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
         let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
         let settled = solve_island(&mut bodies, &closed(model, &contacts), &loads, tick);
         if !settled.converged {
@@ -238,32 +251,55 @@ impl Mechanics {
         self.write_rest_events(model, log, keys, &settled);
         self.rests.carry(keys, &settled.forces, self.trajectories.now);
         let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
-        let opening: Vec<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
-        let (stuck, opening): (Vec<Key>, Vec<Key>) =
+        let opening: Short<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
+        let (stuck, opening): (Short<Key>, Short<Key>) =
             opening.into_iter().partition(|&key| self.impacts.instant.is_stuck(key));
+        if opening.is_empty() {
+            let members = Members { spheres, bodies, contacts };
+            self.begin_motion(model, keys, members, (settled.a, settled.forces, settled.curved), stuck);
+            return Ok(None);
+        }
         for &key in &opening {
             self.release(model, log, key);
             self.ensure_separating(model, key, 0.0);
         }
-        if !opening.is_empty() {
-            let kept = keys.iter().filter(|key| opening.binary_search(key).is_err());
-            return Ok(Some(kept.copied().collect()));
+        let stays = |index: &usize| opening.binary_search(&keys[*index]).is_err();
+        let kept: Short<usize> = (0..keys.len()).filter(stays).collect();
+        let left: Short<Key> = kept.iter().map(|&index| keys[index]).collect();
+        let moved = |(i, body): (&usize, &Body)| self.trajectories.trajectory(*i).v != body.v;
+        if left.len() < 2 || self.groups(&left).len() > 1 || spheres.iter().zip(&bodies).any(moved) {
+            return Ok(Some(left));
         }
+        // what opens carries nothing: the others are as they were solved with it
+        let members = self.members(model, &left);
+        let a = members.spheres.iter().map(|&i| settled.a[spheres.partition_point(|&other| other < i)]).collect();
+        let forces = kept.iter().map(|&index| settled.forces[index]).collect();
+        self.begin_motion(model, &left, members, (a, forces, settled.curved), stuck);
+        Ok(None)
+    }
+
+    /// Sends the members of an island on their way, on a curve or on parabolas, by their accelerations (m/s²) and the forces (N)
+    /// of its contacts, of which those that are stuck are held for a moment.
+    fn begin_motion(
+        &mut self,
+        model: &Model,
+        keys: &[Key],
+        Members { spheres, bodies, contacts }: Members,
+        (a, forces, curved): (Vec<DVec3>, Vec<f64>, bool),
+        stuck: Short<Key>,
+    ) {
+        let now = self.trajectories.now;
         let pause = if stuck.is_empty() { f64::INFINITY } else { self.pause(&bodies) };
         for key in stuck {
-            self.rests.hold_until(key, self.trajectories.now + pause);
+            self.rests.hold_until(key, now + pause);
         }
-        if settled.curved {
-            self.set_chord(
-                &spheres,
-                Curve::new(model, bodies, (contacts, &settled.forces), self.trajectories.now)
-                    .cut(pause.min(self.rubbing_time(keys) - self.trajectories.now)),
-            );
+        if curved {
+            let curve = Curve::new(model, (bodies, a), (contacts, &forces), now);
+            self.set_chord(&spheres, curve.cut(pause.min(self.rubbing_time(keys) - now)));
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
-            self.rests.insert_island(Island { spheres, end, curve: None }, self.trajectories.now);
+            self.rests.insert_island(Island { spheres, end, curve: None }, now);
         }
-        Ok(None)
     }
 
     /// Bounces that were summed up are over: what they have left of the tangential velocity.
@@ -299,11 +335,15 @@ impl Mechanics {
         (PAUSE * squared.sqrt()).max(CLOCK_ULPS * self.trajectories.clock_ulp())
     }
 
-    /// The spheres that some connected contacts name, as bodies at the present, and those contacts.
-    fn island_of(&self, model: &Model, keys: &[Key]) -> (Vec<usize>, Vec<Body>, Vec<IslandContact>) {
-        let named = |&(kind, a, b): &Key| [Some(a), (kind == Kind::Pair).then_some(b)];
-        let spheres: BTreeSet<usize> = keys.iter().flat_map(named).flatten().collect();
-        let spheres: Vec<usize> = spheres.into_iter().collect();
+    /// What some connected contacts name, at the present.
+    fn members(&self, model: &Model, keys: &[Key]) -> Members {
+        let mut spheres: Vec<usize> = Vec::with_capacity(2 * keys.len());
+        for &(kind, a, b) in keys {
+            spheres.push(a);
+            spheres.extend((kind == Kind::Pair).then_some(b));
+        }
+        spheres.sort_unstable();
+        spheres.dedup();
         let place = |i: usize| spheres.partition_point(|&other| other < i);
         let contact = |&key: &Key| {
             let (kind, a, b) = key;
@@ -313,23 +353,24 @@ impl Mechanics {
         };
         let contacts = keys.iter().map(contact).collect();
         let bodies = spheres.iter().map(|&i| Body::of(model, &self.trajectories, i)).collect();
-        (spheres, bodies, contacts)
+        Members { spheres, bodies, contacts }
     }
 
     /// Writes a `rest` row for every contact that begins to carry a load, and for every other one whose impulse stopped an
     /// approach, here or further up the pile: without it, a change of velocity would stand nowhere.
     fn write_rest_events(&mut self, model: &Model, log: &mut Log, keys: &[Key], settled: &Settled) {
         for (index, &key) in keys.iter().enumerate() {
-            let mut meeting = self.trajectories.contact_state(model, key);
             let held = self.rests.kept_mut(key);
             let begins = settled.fate[index] == Fate::Loaded && !held.announced;
             // a contact whose bounces are summed up rests when they are over, unless more than a bounce stops it
             let bounces = !held.announced && held.settles_at > self.trajectories.now;
+            if !settled.struck[index] && (bounces || !begins) {
+                continue;
+            }
+            let mut meeting = self.trajectories.contact_state(model, key);
             let struck = settled.struck[index] && !(bounces && is_a_bounce(model, &meeting, settled.impulses[index]));
             if !struck && (bounces || !begins) {
-                if settled.struck[index] {
-                    held.untold += settled.impulses[index];
-                }
+                held.untold += settled.impulses[index];
                 continue;
             }
             meeting.v_n = if struck { settled.v_n[index] } else { held.v_n };
