@@ -64,8 +64,6 @@ pub(super) struct Body {
     pub(super) held: Vec<Held>,
     /// Edges and corners that have let go of it as its motion began.
     pub(super) left: Vec<Held>,
-    /// What comes next by itself.
-    pub(super) due: Option<Due>,
     /// What it touches at the beginning of its motion.
     pub(super) met: Vec<(Kind, usize)>,
     /// Whether contacts of this instant have changed it since it was last settled.
@@ -94,7 +92,6 @@ impl Body {
         }
         self.met.push(with);
         self.open = true;
-        self.due = None;
     }
 
     /// By what a wall holds it; none if it does not.

@@ -68,6 +68,7 @@ impl Course {
     }
 
     /// The most that the acceleration changes by up to `length` (s) after the beginning, m/s³.
+    #[inline]
     pub(super) fn jerk(&self, length: f64) -> f64 {
         let Some(bend) = &self.bend else { return 0.0 };
         bend.iter().enumerate().rev().fold(0.0, |sum, (k, term)| {

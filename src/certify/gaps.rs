@@ -223,7 +223,7 @@ impl Shadow {
         let bodies = Some((Kind::Wall, i, w));
         let at = |after: f64, cause| Ending { time: body.now.t.value() + after, bodies, cause };
         if body.holder(w).is_some() {
-            let over = body.due.filter(|due| due.t < t && !self.at_one_time(due.t, t));
+            let over = self.dues.get(&i).filter(|due| due.t < t && !self.at_one_time(due.t, t));
             return over.map(|due| at((due.t - body.now.t).value(), Cause::RollsOver));
         }
         let start = Start::of(&body.now, plate, body.radius);

@@ -131,7 +131,7 @@ impl Shadow {
 
     /// Brings sphere `i` to `t` (s), past what it does not touch on the way.
     fn bring(&mut self, i: usize, t: Double, time: f64, with: (Kind, usize)) -> Result<(), Ending> {
-        if self.bodies[i].due.is_some_and(|due| due.t < t && !self.at_one_time(due.t, t)) {
+        if self.dues.get(&i).is_some_and(|due| due.t < t && !self.at_one_time(due.t, t)) {
             return Err(Ending { time, bodies: Some((with.0, i, with.1)), cause: Cause::OtherOrder });
         }
         let also = if t == self.bodies[i].now.t { Vec::new() } else { self.clear_until(i, t, Some(with))? };

@@ -47,7 +47,9 @@ impl Shadow {
         if bodies.is_empty() || longest.is_nan() || longest <= 0.0 {
             return Ok(());
         }
-        bodies.iter().for_each(|&j| self.bodies[j].due = None);
+        bodies.iter().for_each(|j| {
+            self.dues.remove(j);
+        });
         let mut next = Earliest { t: island.t, longest, found: None };
         for &j in &bodies {
             let terms = self.bodies[j].now.terms();
@@ -56,6 +58,7 @@ impl Shadow {
             }
         }
         if let Some(series) = &motion.series {
+            self.curved = true;
             for (tie, force) in island.pushing().zip(&series.forces) {
                 let (kind, a, b) = island.contacts[tie];
                 let unclear = Change::Unclear(Cause::CurvedRest, (kind, a, b));
@@ -73,7 +76,7 @@ impl Shadow {
             next.at(bodies[0], island.t + Double::from(longest), Change::Piece);
         }
         if let Some((i, due)) = next.found {
-            self.bodies[i].due = Some(due);
+            self.dues.insert(i, due);
         }
         Ok(())
     }
@@ -93,10 +96,8 @@ impl Shadow {
     pub(super) fn pass(&mut self, t: Double) -> Result<(), Ending> {
         let mut last = (Double::ZERO, 0);
         loop {
-            let due = self.bodies.iter().enumerate().filter_map(|(i, body)| body.due.map(|due| (i, due)));
-            let Some((i, due)) = due.reduce(|one, two| if two.1.t < one.1.t { two } else { one }) else {
-                return Ok(());
-            };
+            let earliest = self.dues.iter().reduce(|one, two| if two.1.t < one.1.t { two } else { one });
+            let Some((&i, &due)) = earliest else { return Ok(()) };
             if due.t > t {
                 return Ok(());
             }

@@ -1,10 +1,10 @@
 //! The shadow run: it is told which bodies `exact` has brought together, and finds the rest by itself.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use super::body::{Body, Held};
+use super::body::{Body, Due, Held};
 use super::clear::Shape;
 use super::course::Course;
 use super::double::Double;
@@ -33,6 +33,10 @@ pub(super) struct Shadow {
     pub(super) leans: BTreeSet<(usize, usize)>,
     /// When the run ends, s.
     pub(super) until: f64,
+    /// What comes next by itself, by sphere.
+    pub(super) dues: BTreeMap<usize, Due>,
+    /// Whether a motion has been curved.
+    pub(super) curved: bool,
     /// When (s) and where (m) a sphere was whose curved motion has changed since `exact` was last looked at.
     pub(super) checks: Vec<(f64, usize, Vector)>,
     /// Contacts that `exact` has let go and the shadow has not: sphere, with what, and when, s.
@@ -68,7 +72,6 @@ impl Shadow {
                 pull,
                 held: Vec::new(),
                 left: Vec::new(),
-                due: None,
                 met: Vec::new(),
                 open: false,
                 since: 0.0,
@@ -85,6 +88,8 @@ impl Shadow {
             changed: Vec::new(),
             leans: BTreeSet::new(),
             until,
+            dues: BTreeMap::new(),
+            curved: false,
             checks: Vec::new(),
             let_go: Vec::new(),
             ties: 0,
@@ -160,6 +165,7 @@ impl Shadow {
     /// A sphere goes on from `t` (s), at which `exact` has `time`, where it meets something.
     pub(super) fn change(&mut self, i: usize, t: Double, time: f64, with: (Kind, usize)) {
         self.bodies[i].meet(t, with);
+        self.dues.remove(&i);
         self.bodies[i].since = time;
         if !self.changed.contains(&i) {
             self.changed.push(i);
@@ -201,7 +207,8 @@ impl Shadow {
 
     /// Holds what `exact` says of the spheres that changed, and of those in curved motion, against the shadow.
     pub(super) fn compare(&mut self, state: &State) -> Result<(), Ending> {
-        let curved = (0..self.bodies.len()).filter(|&i| self.bodies[i].now.bend.is_some());
+        let all = if self.curved { self.bodies.len() } else { 0 };
+        let curved = (0..all).filter(|&i| self.bodies[i].now.bend.is_some());
         let compared: BTreeSet<usize> = self.changed.iter().copied().chain(curved).collect();
         for i in compared {
             self.differs(i, state, self.bodies[i].course(state.t.into()).at(state.t.into()))?;

@@ -257,7 +257,7 @@ fn name(crowd: &Crowd) -> String {
 
 /// A line of the legend, two in a row; how many runs came to the end, if not all did.
 fn legend(index: usize, crowd: &Crowd, crowds: &[Crowd], svg: &mut String) {
-    let x = PLOTS[0][0] + if index % 2 == 0 { 0.0 } else { WIDTH / 2.0 - 20.0 };
+    let x = PLOTS[0][0] + if index.is_multiple_of(2) { 0.0 } else { WIDTH / 2.0 - 20.0 };
     let y = TOP + HEIGHT + AXIS + LINE * (index / 2) as f64 + 6.0;
     let (color, dash) = look(crowd, crowds);
     let (done, begun) = crowd.finished;
