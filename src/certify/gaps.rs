@@ -1,5 +1,7 @@
 //! That between two events of a sphere it touches nothing: every other sphere and every wall, one by one.
 
+use glam::DVec3;
+
 use super::body::Held;
 use super::clear::{Shape, Way, doubt};
 use super::course::Course;
@@ -51,6 +53,12 @@ fn is_far(way: &Way, radius: f64) -> bool {
 }
 
 impl Span {
+    /// The whole of it, of a motion that begins so and is a parabola.
+    fn way(&self, [x, v, a]: [Vector; 3]) -> Way {
+        let (x, v, a) = (x.value(), v.value(), a.value());
+        Way { x, v, a, length: self.length, overlap: 0.0, lifts: false, end: false, sway: 0.0 }
+    }
+
     /// The time (s) after the beginning up to which it is shown that a motion, by its place, velocity and acceleration at a time, which
     /// change by no more than `jerk` (m/s³), stays clear of `shape`; none if it is for the whole span.
     fn doubt(&self, motion: impl Fn(Double) -> [Vector; 3], jerk: f64, shape: &Shape) -> Option<f64> {
@@ -111,7 +119,12 @@ impl Shadow {
         }
         let (mut first, mut also) = (None, Vec::new());
         let walls = (0..self.plates.len()).map(|w| (Kind::Wall, w));
-        let pairs = (0..self.bodies.len()).filter(|&j| j != i).map(|j| (Kind::Pair, j));
+        let (glance, radius) = (Glance::of(&self.bodies[i].now, t.value()), self.bodies[i].radius.value());
+        let near = |j: &usize| {
+            let other = &self.bodies[*j];
+            *j != i && !Glance::of(&other.now, t.value()).is_apart(&glance, radius + other.radius.value())
+        };
+        let pairs = (0..self.bodies.len()).filter(near).map(|j| (Kind::Pair, j));
         for with in walls.chain(pairs) {
             let doubt = |ends: bool| match with {
                 (Kind::Wall, w) => self.wall_doubt(i, w, t, ends),
@@ -169,22 +182,28 @@ impl Shadow {
         }
         let reach = self.bodies[i].radius + self.bodies[j].radius;
         let radius = reach.value();
-        if is_apart([one, two], t.value(), radius) {
+        let [glance, other] = [one, two].map(|course| Glance::of(course, t.value()));
+        if glance.is_apart(&other, radius) {
             return None;
         }
+        let relative = one.relative(two, since);
         let (lean, bent) = ((i.min(j), i.max(j)), one.bend.is_some() || two.bend.is_some());
         if bent && self.leans.contains(&lean) {
             return None;
         }
-        let relative = one.relative(two, since);
+        let span = Span { from: since, length: (t - since).value(), radius, start: Start::Open, end: met };
+        if !bent && is_far(&span.way(relative.state(since)), radius) {
+            return None;
+        }
+        let in_touch = (relative.x.value().length() - radius).abs() <= NEARLY * radius;
         let overlap = overlap(since, radius);
-        let gap = (relative.x.length() - reach).value().abs();
-        let in_touch = gap <= NEARLY * radius;
         if in_touch && !bent && self.parts([(i, one), (j, two)], &relative, overlap) {
             return None;
         }
-        let span = Span { from: since, length: (t - since).value(), radius, start: Start::Open, end: met };
         let motion = |t: Double| {
+            if !bent {
+                return relative.state(t);
+            }
             let [[x, v, a], [y, w, b]] = [one, two].map(|course| course.state(t));
             [x - y, v - w, a - b]
         };
@@ -192,7 +211,8 @@ impl Shadow {
         let found = span.doubt(motion, jerk, &Shape::Point)?;
         let bodies = Some((Kind::Pair, lean.0, lean.1));
         let at = |after: f64| Ending { time: since.value() + after, bodies, cause: Cause::Touching };
-        if found > 0.0 || gap > AT_LOAD * radius || one.t != two.t {
+        let gap = || (relative.x.length() - reach).value().abs();
+        if found > 0.0 || !in_touch || gap() > AT_LOAD * radius || one.t != two.t {
             return Some(at(found));
         }
         // in touch and at rest along the normal, they may part by the curvature of their paths
@@ -277,13 +297,30 @@ fn earlier(one: Ending, two: Ending) -> Ending {
     if two.time < one.time { two } else { one }
 }
 
-/// Whether two spheres stay farther apart than `radius` (m) up to `t` (s), by a look that takes no more than `f64`.
-fn is_apart([one, two]: [&Course; 2], t: f64, radius: f64) -> bool {
-    let moves = |course: &Course| {
-        let h = t - course.t.value();
-        (course.v.value().length() + (0.5 * course.a.value().length() + course.jerk(h) * h / 6.0) * h) * h
-    };
-    let (x, y) = (one.x.value(), two.x.value());
-    let size = x.abs().max_element() + y.abs().max_element();
-    (x - y).length() > (radius + moves(one) + moves(two) + size * ROUNDING) * (1.0 + ROUNDING)
+/// A course as the quick look at two spheres sees it, which takes no more than `f64`.
+#[derive(Clone, Copy)]
+struct Glance {
+    x: DVec3,
+    /// Its largest coordinate, m.
+    size: f64,
+    /// How far it may move up to when it is looked at, m.
+    moves: f64,
+}
+
+impl Glance {
+    /// Up to `t`, s.
+    fn of(course: &Course, t: f64) -> Glance {
+        let (x, h) = (course.x.value(), t - course.t.value());
+        let moves = (course.v.value().length() + 0.5 * course.a.value().length() * h) * h;
+        // asked of every pair of bodies at every event: what no motion has must cost nothing
+        let moves = if course.bend.is_none() { moves } else { moves + course.jerk(h) * h * h * h / 6.0 };
+        Glance { x, size: x.abs().max_element(), moves }
+    }
+
+    /// Whether it stays farther than `radius` (m) from another one.
+    fn is_apart(&self, other: &Glance, radius: f64) -> bool {
+        let size = self.size + other.size;
+        let reach = (radius + self.moves + other.moves + size * ROUNDING) * (1.0 + ROUNDING);
+        (self.x - other.x).length_squared() > reach * reach
+    }
 }
