@@ -31,6 +31,10 @@ const DASHES: [&str; 4] = ["none", "7 3", "2 3", "7 3 2 3"];
 /// Marks along a vertical axis, about.
 const TICKS: f64 = 6.0;
 
+/// Values that differ by less than this part of themselves are drawn in the middle, with so much room on either side.
+const ALIKE: f64 = 1e-3;
+const ASIDE: f64 = 0.05;
+
 /// Parts of the run at which energy is told, in the order of the figures.
 const TIMES: [f64; 5] = [0.05, 0.1, 0.25, 0.5, 1.0];
 
@@ -65,7 +69,10 @@ impl Range {
         if low > high {
             return Range { low: 0.0, high: 1.0, step: 0.5 };
         }
-        let width = (high - low).max(1e-3 * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
+        let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+        let alike = high - low < ALIKE * size;
+        let (low, high) = if alike { (low - ASIDE * size, high + ASIDE * size) } else { (low, high) };
+        let width = high - low;
         let decade = 10.0_f64.powf((width / TICKS).log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].map(|part| part * decade).into_iter().find(|step| width / step <= TICKS);
         let step = step.unwrap_or(width);
@@ -86,7 +93,8 @@ impl Range {
 
 /// The figure of the crowds of all scenes, a panel for each; `about`, the machine and the command, becomes its description.
 pub fn crowd_figure(scenes: &[SceneCrowds], about: &str) -> String {
-    let heights: Vec<f64> = scenes.iter().map(|scene| TOP + HEIGHT + AXIS + LINE * rows(scene) + 12.0).collect();
+    let heights: Vec<f64> =
+        scenes.iter().map(|scene| TOP + HEIGHT + AXIS + LINE * scene.crowds.len() as f64 + 12.0).collect();
     let height = heights.iter().sum::<f64>().max(1.0);
     let names: Vec<&str> = scenes.iter().map(|scene| scene.key.as_str()).collect();
     let mut svg = format!(
@@ -106,11 +114,6 @@ pub fn crowd_figure(scenes: &[SceneCrowds], about: &str) -> String {
         top += height;
     }
     svg + "</svg>\n"
-}
-
-/// Lines of the legend: two settings each.
-fn rows(scene: &SceneCrowds) -> f64 {
-    scene.crowds.len().div_ceil(2) as f64
 }
 
 fn panel(scene: &SceneCrowds, svg: &mut String) {
@@ -255,15 +258,14 @@ fn name(crowd: &Crowd) -> String {
     setting(crowd.rung.method.name(), crowd.rung.dt, crowd.rung.tolerance)
 }
 
-/// A line of the legend, two in a row; how many runs came to the end, if not all did.
+/// A line of the legend; how many runs came to the end, if not all did.
 fn legend(index: usize, crowd: &Crowd, crowds: &[Crowd], svg: &mut String) {
-    let x = PLOTS[0][0] + if index.is_multiple_of(2) { 0.0 } else { WIDTH / 2.0 - 20.0 };
-    let y = TOP + HEIGHT + AXIS + LINE * (index / 2) as f64 + 6.0;
+    let (x, y) = (PLOTS[0][0] + 16.0, TOP + HEIGHT + AXIS + LINE * index as f64 + 6.0);
     let (color, dash) = look(crowd, crowds);
     let (done, begun) = crowd.finished;
     let mut words = name(crowd);
     if done < begun {
-        let _ = write!(words, ": {done} of {begun} to the end, all to {} s", format::time(crowd.reached.0));
+        let _ = write!(words, ": {done} of {begun} came to the end, all to {} s", format::time(crowd.reached.0));
     }
     let line = format!(r#"stroke="{color}" stroke-width="1.5" stroke-dasharray="{dash}" d="M{} {y}h32""#, x - 16.0);
     let _ = writeln!(svg, "<path {line}/>");
