@@ -164,6 +164,24 @@ mod tests {
     }
 
     #[test]
+    fn the_quick_factor_leaves_a_row_that_depends_on_others_to_them_and_no_other() {
+        // two spheres on a floor of two tiles each, the second on the first as well
+        let row = |a: usize, b: Option<usize>, normal: DVec3, offset: f64| Row { a, b, normal, offset };
+        let slanted = DVec3::new(0.6, 0.8, 0.0);
+        let tiles = [row(0, None, DVec3::Y, 0.0), row(0, None, DVec3::Y, 0.0), row(1, Some(0), slanted, 0.25)];
+        let free = [DVec3::new(0.3, -9.8, 0.1), DVec3::new(0.0, -9.8, 0.0)];
+        let (u, loads) = gram::bind(&[1.0, 0.5], &free, &tiles, false).expect("an answer");
+        let expected = bind_all(&[1.0, 0.5], &free, &tiles, DEPENDENT).0;
+        assert!(u.iter().zip(&expected).all(|(u, w)| u.distance(*w) < 1e-14), "{u:?} instead of {expected:?}");
+        assert_eq!(loads[1], 0.0);
+        // what two equal rows ask for differently, or what leans by 1e-7, is not left out
+        let torn = [tiles[0], row(0, None, DVec3::Y, 1e-9), tiles[2]];
+        assert_eq!(gram::bind(&[1.0, 0.5], &free, &torn, false), None);
+        let leaning = [tiles[0], row(0, None, DVec3::new(1e-7, 1.0, 0.0).normalize(), 0.0), tiles[2]];
+        assert_eq!(gram::bind(&[1.0, 0.5], &free, &leaning, false), None);
+    }
+
+    #[test]
     fn what_rounding_left_between_two_walls_that_oppose_each_other_moves_nothing_across_them() {
         // a sphere between a wall at its left and one at its right that leans by 3e-10: a gap of 1e-16 m is left of the second
         let lean = 3e-10;

@@ -17,6 +17,10 @@ const INDEPENDENT: f64 = 1e-8;
 /// Least square of what is new of a column where columns with less are left out: those that stay need fewer digits.
 const LEFT_OUT: f64 = 1e-10;
 
+/// Square of what rounding leaves of a column that depends on others. Whether it does shows in the end: what it asks for
+/// is then met without it, but for this share.
+const DEPENDS: f64 = 1e-13;
+
 /// Ratio of masses up to which multipliers that cancel in a light body cost it no more than three digits before refinement.
 const LIKE_MASSES: f64 = 1e3;
 
@@ -27,14 +31,23 @@ const FEW: usize = 16;
 const DOUBTFUL: f64 = 1e-3;
 
 /// Solves u = `free` + M⁻¹ Jᵀ λ, J u + c = 0; u by body and λ by row. A row of which less than 1e-5 is new is left out, with
-/// λ = 0, if `leaves_out`; otherwise, or among unlike masses, there is no answer.
+/// λ = 0, if `leaves_out`; otherwise only one that depends on others and is met with them. Where more is left of one, or
+/// among unlike masses, there is no answer.
 pub(super) fn bind(
     inverse_mass: &[f64],
     free: &[DVec3],
     rows: &[Row],
     leaves_out: bool,
 ) -> Option<(Vec<DVec3>, Vec<f64>)> {
-    Some(Skyline::of_like_masses(inverse_mass, rows, leaves_out)?.bind(inverse_mass, free, rows))
+    let factor = Skyline::of_like_masses(inverse_mass, rows, leaves_out)?;
+    let (u, multipliers) = factor.bind(inverse_mass, free, rows);
+    let is_met = |&index: &usize| {
+        let row = &rows[index];
+        let (own, other) = (u[row.a], row.b.map_or(DVec3::ZERO, |b| u[b]));
+        let size = own.length() + other.length() + free[row.a].length() + row.b.map_or(0.0, |b| free[b].length());
+        (row.normal.dot(own - other) + row.offset).abs() <= DEPENDS * (size + row.offset.abs())
+    };
+    (leaves_out || factor.left_out.iter().all(is_met)).then_some((u, multipliers))
 }
 
 /// A row that holds.
@@ -56,6 +69,8 @@ pub(super) struct Skyline {
     entries: SmallVec<[f64; FEW * (FEW + 1) / 2]>,
     /// Least square of what was new of a column.
     least: f64,
+    /// Rows that were left out.
+    left_out: SmallVec<[usize; FEW]>,
 }
 
 impl Skyline {
@@ -95,6 +110,7 @@ impl Skyline {
             held: SmallVec::with_capacity(rows.len()),
             entries: SmallVec::with_capacity(rows.len() * (rows.len().min(FEW) + 1) / 2),
             least: 1.0,
+            left_out: SmallVec::new(),
         };
         let mut firsts: SmallVec<[usize; FEW]> = smallvec![usize::MAX; inverse_mass.len()];
         if rows.len() <= FEW {
@@ -134,8 +150,9 @@ impl Skyline {
             new -= entry * entry;
             self.entries.push(entry);
         }
-        if leaves_out && new <= LEFT_OUT {
+        if new <= if leaves_out { LEFT_OUT } else { DEPENDS } {
             self.entries.truncate(start);
+            self.left_out.push(index);
             return Some(());
         }
         if !leaves_out && new < INDEPENDENT || new.is_nan() {

@@ -16,7 +16,7 @@ pub(crate) const BARELY: f64 = 1e-3;
 
 /// How far it may open, in radii, before it must let go: so far that the chords, which depart from the path by a hundredth of
 /// that, do not meet it again, and so little that it may carry again as it is.
-pub(crate) const OPENED: f64 = 1e-11;
+pub(crate) const OPENED: f64 = 1e-10;
 
 /// How far an idle contact may sink in, in radii, before its island is settled anew: where the normals of two contacts are
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
@@ -24,6 +24,17 @@ const SUNK: f64 = 1e-13;
 
 /// Overlaps up to so many radii are healed; deeper ones are the scene's.
 const HEALED: f64 = 1e-10;
+
+/// How an arc is integrated: the shorter it is, the lower the order that is exact to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// By accelerations that grow evenly from its beginning to its end, without steps.
+    Three,
+    /// By the classical method of Runge and Kutta.
+    Four,
+    /// By the method of Runge, Kutta and Fehlberg.
+    Eight,
+}
 
 /// The differential equation of an island while the contacts that carry a load now go on holding.
 pub(crate) struct ConstrainedMotion<'a> {

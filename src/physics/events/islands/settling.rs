@@ -267,10 +267,12 @@ impl Mechanics {
         let kept: Short<usize> = (0..keys.len()).filter(stays).collect();
         let left: Short<Key> = kept.iter().map(|&index| keys[index]).collect();
         let moved = |(i, body): (&usize, &Body)| self.trajectories.trajectory(*i).v != body.v;
-        if left.len() < 2 || self.groups(&left).len() > 1 || spheres.iter().zip(&bodies).any(moved) {
+        let moves = !settled.curved && spheres.iter().zip(&bodies).any(moved);
+        if left.len() < 2 || self.groups(&left).len() > 1 || moves {
             return Ok(Some(left));
         }
-        // what opens carries nothing: the others are as they were solved with it
+        // what opens carries nothing: the others are as they were solved with it, up to the rounding that opens it, which an
+        // arc takes back at its end
         let members = self.members(model, &left);
         let a = members.spheres.iter().map(|&i| settled.a[spheres.partition_point(|&other| other < i)]).collect();
         let forces = kept.iter().map(|&index| settled.forces[index]).collect();
