@@ -119,10 +119,10 @@ impl Shadow {
         }
         let (mut first, mut also) = (None, Vec::new());
         let walls = (0..self.plates.len()).map(|w| (Kind::Wall, w));
-        let (glance, radius) = (Glance::of(&self.bodies[i].now, t.value()), self.bodies[i].radius.value());
+        let (glance, time, radius) = (Glance::of(&self.bodies[i].now), t.value(), self.bodies[i].radius.value());
         let near = |j: &usize| {
-            let other = &self.bodies[*j];
-            *j != i && !Glance::of(&other.now, t.value()).is_apart(&glance, radius + other.radius.value())
+            let (other, its) = &self.glances[*j];
+            *j != i && !other.is_apart(&glance, time, radius + its)
         };
         let pairs = (0..self.bodies.len()).filter(near).map(|j| (Kind::Pair, j));
         for with in walls.chain(pairs) {
@@ -182,8 +182,7 @@ impl Shadow {
         }
         let reach = self.bodies[i].radius + self.bodies[j].radius;
         let radius = reach.value();
-        let [glance, other] = [one, two].map(|course| Glance::of(course, t.value()));
-        if glance.is_apart(&other, radius) {
+        if Glance::of(one).is_apart(&Glance::of(two), t.value(), radius) {
             return None;
         }
         let relative = one.relative(two, since);
@@ -298,29 +297,41 @@ fn earlier(one: Ending, two: Ending) -> Ending {
 }
 
 /// A course as the quick look at two spheres sees it, which takes no more than `f64`.
-#[derive(Clone, Copy)]
-struct Glance {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Glance {
     x: DVec3,
     /// Its largest coordinate, m.
     size: f64,
-    /// How far it may move up to when it is looked at, m.
-    moves: f64,
+    /// When it begins, s.
+    t: f64,
+    /// |v| then, m/s; endless where nothing is known.
+    speed: f64,
+    /// |a|, m/s².
+    pull: f64,
 }
 
 impl Glance {
-    /// Up to `t`, s.
-    fn of(course: &Course, t: f64) -> Glance {
-        let (x, h) = (course.x.value(), t - course.t.value());
-        let moves = (course.v.value().length() + 0.5 * course.a.value().length() * h) * h;
-        // asked of every pair of bodies at every event: what no motion has must cost nothing
-        let moves = if course.bend.is_none() { moves } else { moves + course.jerk(h) * h * h * h / 6.0 };
-        Glance { x, size: x.abs().max_element(), moves }
+    pub(super) fn of(course: &Course) -> Glance {
+        let x = course.x.value();
+        let speed = if course.bend.is_none() { course.v.value().length() } else { f64::INFINITY };
+        let pull = course.a.value().length();
+        Glance { x, size: x.abs().max_element(), t: course.t.value(), speed, pull }
     }
 
-    /// Whether it stays farther than `radius` (m) from another one.
-    fn is_apart(&self, other: &Glance, radius: f64) -> bool {
+    /// Of a course that is about to change: it may be anywhere.
+    pub(super) fn unknown(self) -> Glance {
+        Glance { speed: f64::INFINITY, ..self }
+    }
+
+    /// Whether up to `t` (s) it stays farther than `radius` (m) from another one. Asked of every pair of bodies at every event: it takes
+    /// no root.
+    fn is_apart(&self, other: &Glance, t: f64, radius: f64) -> bool {
+        let moves = |glance: &Glance| {
+            let h = t - glance.t;
+            (glance.speed + 0.5 * glance.pull * h) * h
+        };
         let size = self.size + other.size;
-        let reach = (radius + self.moves + other.moves + size * ROUNDING) * (1.0 + ROUNDING);
+        let reach = (radius + moves(self) + moves(other) + size * ROUNDING) * (1.0 + ROUNDING);
         (self.x - other.x).length_squared() > reach * reach
     }
 }

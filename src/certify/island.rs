@@ -7,6 +7,7 @@ use super::body::Held;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::gaps::Glance;
 use super::shadow::Shadow;
 use super::support::{self, MOST_CONTACTS, Prop, ROUNDING};
 use super::vector::Vector;
@@ -199,6 +200,7 @@ impl Shadow {
             if !moves_on {
                 let now = &mut self.bodies[j].now;
                 *now = motion.course(k, now);
+                self.glances[j].0 = Glance::of(now);
             }
             let holds = |held: &Held| island.contacts.contains(&(Kind::Wall, j, held.wall));
             let gone = self.bodies[j].held.extract_if(.., |held| !holds(held)).filter(Held::is_round);

@@ -9,6 +9,7 @@ use super::clear::Shape;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::gaps::Glance;
 use super::growth::Growth;
 use super::law;
 use super::obstacle::Plate;
@@ -23,6 +24,8 @@ pub(super) struct Shadow {
     pub(super) plates: Vec<Plate>,
     pub(super) shapes: Vec<(DVec3, Shape)>,
     pub(super) bodies: Vec<Body>,
+    /// What a quick look sees of each, and its radius, m.
+    pub(super) glances: Vec<(Glance, f64)>,
     /// Pairs of bodies looked at.
     pub(super) looks: u64,
     /// How many of them a certificate may take.
@@ -78,11 +81,13 @@ impl Shadow {
                 told,
             }
         };
+        let bodies: Vec<Body> = scene.spheres.iter().map(body).collect();
         Shadow {
             law: scene.contact,
             shapes: plates.iter().zip(&scene.walls).map(|(plate, wall)| shape(plate, wall)).collect(),
             plates,
-            bodies: scene.spheres.iter().map(body).collect(),
+            glances: bodies.iter().map(|body| (Glance::of(&body.now), body.radius.value())).collect(),
+            bodies,
             looks: 0,
             most_looks,
             changed: Vec::new(),
@@ -166,6 +171,7 @@ impl Shadow {
     pub(super) fn change(&mut self, i: usize, t: Double, time: f64, with: (Kind, usize)) {
         self.bodies[i].meet(t, with);
         self.dues.remove(&i);
+        self.glances[i].0 = self.glances[i].0.unknown();
         self.bodies[i].since = time;
         if !self.changed.contains(&i) {
             self.changed.push(i);
