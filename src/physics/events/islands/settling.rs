@@ -266,9 +266,11 @@ impl Mechanics {
         let stays = |index: &usize| opening.binary_search(&keys[*index]).is_err();
         let kept: Short<usize> = (0..keys.len()).filter(stays).collect();
         let left: Short<Key> = kept.iter().map(|&index| keys[index]).collect();
-        let moved = |(i, body): (&usize, &Body)| self.trajectories.trajectory(*i).v != body.v;
-        let moves = !settled.curved && spheres.iter().zip(&bodies).any(moved);
-        if left.len() < 2 || self.groups(&left).len() > 1 || moves {
+        let rounding = if settled.curved { SUM } else { 0.0 };
+        let moved = |(i, body): (&usize, &Body)| {
+            self.trajectories.trajectory(*i).v.distance(body.v) > rounding * body.v.length()
+        };
+        if left.len() < 2 || self.groups(&left).len() > 1 || spheres.iter().zip(&bodies).any(moved) {
             return Ok(Some(left));
         }
         // what opens carries nothing: the others are as they were solved with it, up to the rounding that opens it, which an
