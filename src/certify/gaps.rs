@@ -1,12 +1,11 @@
 //! That between two events of a sphere it touches nothing: every other sphere and every wall, one by one.
 
-use glam::DVec3;
-
 use super::body::Held;
 use super::clear::{Shape, Way, doubt};
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::glance::{Glance, ROUNDING};
 use super::obstacle::Part;
 use super::polynomial::above;
 use super::shadow::Shadow;
@@ -20,9 +19,6 @@ const MOST_AT_ONCE: u64 = 100_000_000;
 
 /// Part of a reach within which it is worth asking whether spheres that touch part: planes show it of all others.
 const NEARLY: f64 = 1e-6;
-
-/// Part of a distance that the quick look gives away for rounding.
-const ROUNDING: f64 = 1e-12;
 
 fn later(one: Double, two: Double) -> Double {
     if one < two { two } else { one }
@@ -294,44 +290,4 @@ fn difference(one: &[Vector], two: &[Vector]) -> Vec<Vector> {
 
 fn earlier(one: Ending, two: Ending) -> Ending {
     if two.time < one.time { two } else { one }
-}
-
-/// A course as the quick look at two spheres sees it, which takes no more than `f64`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Glance {
-    x: DVec3,
-    /// Its largest coordinate, m.
-    size: f64,
-    /// When it begins, s.
-    t: f64,
-    /// |v| then, m/s; endless where nothing is known.
-    speed: f64,
-    /// |a|, m/s².
-    pull: f64,
-}
-
-impl Glance {
-    pub(super) fn of(course: &Course) -> Glance {
-        let x = course.x.value();
-        let speed = if course.bend.is_none() { course.v.value().length() } else { f64::INFINITY };
-        let pull = course.a.value().length();
-        Glance { x, size: x.abs().max_element(), t: course.t.value(), speed, pull }
-    }
-
-    /// Of a course that is about to change: it may be anywhere.
-    pub(super) fn unknown(self) -> Glance {
-        Glance { speed: f64::INFINITY, ..self }
-    }
-
-    /// Whether up to `t` (s) it stays farther than `radius` (m) from another one. Asked of every pair of bodies at every event: it takes
-    /// no root.
-    fn is_apart(&self, other: &Glance, t: f64, radius: f64) -> bool {
-        let moves = |glance: &Glance| {
-            let h = t - glance.t;
-            (glance.speed + 0.5 * glance.pull * h) * h
-        };
-        let size = self.size + other.size;
-        let reach = (radius + moves(self) + moves(other) + size * ROUNDING) * (1.0 + ROUNDING);
-        (self.x - other.x).length_squared() > reach * reach
-    }
 }

@@ -7,7 +7,7 @@ use super::body::Held;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
-use super::gaps::Glance;
+use super::glance::Glance;
 use super::shadow::Shadow;
 use super::support::{self, MOST_CONTACTS, Prop, ROUNDING};
 use super::vector::Vector;

@@ -23,7 +23,7 @@
 //! | `bend`, `polynomial` | the series of a motion that what holds it bends; where a polynomial falls below 0 |
 //! | `touching`, `start` | when bodies touch; what touches as a motion begins |
 //! | `law`, `support` | what an impact does; what contacts take that hold |
-//! | `clear`, `gaps` | that nothing else touches; by one obstacle, by all |
+//! | `clear`, `glance`, `gaps` | that nothing else touches; by one obstacle, by a quick look, by all |
 //! | `body`, `shadow` | a sphere, and all of them, from event to event |
 //! | `meeting`, `island` | how bodies come to a contact; how an instant ends, for spheres that lean on each other |
 //! | `next` | what comes next by itself of spheres that rest |
@@ -39,6 +39,7 @@ mod course;
 mod double;
 mod ending;
 mod gaps;
+mod glance;
 mod growth;
 mod island;
 mod law;

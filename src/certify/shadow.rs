@@ -9,7 +9,7 @@ use super::clear::Shape;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
-use super::gaps::Glance;
+use super::glance::Glance;
 use super::growth::Growth;
 use super::law;
 use super::obstacle::Plate;
