@@ -4,8 +4,49 @@ use glam::DVec3;
 
 use super::course::Course;
 use super::double::Double;
+use super::ending::Cause;
+use super::obstacle::{FACE, Part, Plate, Region};
 use super::vector::Vector;
 use crate::physics::Kind;
+
+/// A wall that holds a sphere, by one of its parts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Held {
+    pub(super) wall: usize,
+    pub(super) region: Region,
+    pub(super) part: Part,
+}
+
+impl Held {
+    /// The part of a wall in `region` that holds a sphere at `x`, m.
+    pub(super) fn new(wall: usize, region: Region, plate: &Plate, x: Vector) -> Held {
+        Held { wall, region, part: plate.part(region, x) }
+    }
+
+    pub(super) fn is_round(&self) -> bool {
+        self.region != FACE
+    }
+}
+
+/// What comes next by itself of a sphere that rests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Change {
+    /// Another part of a wall takes over.
+    Border(usize, Region),
+    /// A contact lets go.
+    Release((Kind, usize)),
+    /// The series of a curved motion has run out.
+    Piece,
+    /// A contact of which cannot be told what comes.
+    Unclear(Cause, (Kind, usize, usize)),
+}
+
+/// A change, and when it is due, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Due {
+    pub(super) t: Double,
+    pub(super) change: Change,
+}
 
 /// A sphere, its motion, and where `exact` has it.
 #[derive(Debug, Clone)]
@@ -22,8 +63,10 @@ pub(super) struct Body {
     pub(super) before: Course,
     /// Acceleration in flight, m/s².
     pub(super) pull: Vector,
-    /// Walls whose faces hold the sphere.
-    pub(super) held: Vec<usize>,
+    /// Parts of walls that hold the sphere.
+    pub(super) held: Vec<Held>,
+    /// Edges and corners that have let go of the sphere as its motion began.
+    pub(super) left: Vec<Held>,
     /// What the sphere touches at the beginning of its motion.
     pub(super) met: Vec<(Kind, usize)>,
     /// Whether contacts of this instant have changed the sphere since it was last settled.
@@ -42,25 +85,32 @@ impl Body {
 
     /// Lets the sphere go on from `t` (s), where it meets something.
     pub(super) fn meet(&mut self, t: Double, with: (Kind, usize)) {
-        if t != self.now.t {
-            self.before = self.now;
-            self.now = self.now.from(t);
+        let now = self.now.from(t);
+        let before = std::mem::replace(&mut self.now, now);
+        if t != before.t {
+            self.before = before;
             self.met.clear();
-            self.met.extend(self.held.iter().map(|&wall| (Kind::Wall, wall)));
+            self.met.extend(self.held.iter().map(|held| (Kind::Wall, held.wall)));
+            self.left.clear();
         }
         self.met.push(with);
         self.open = true;
     }
 
-    /// Distance (m) of where `exact` has the sphere at `t` (s), by its last event and the shadow's acceleration, from where
-    /// it is; 0 if that event is later, and the distance then has been looked at.
+    /// By what a wall holds it; none if it does not.
+    pub(super) fn holder(&self, wall: usize) -> Option<&Held> {
+        self.held.iter().find(|held| held.wall == wall)
+    }
+
+    /// Distance (m) of where `exact` has it at `t` (s), by its last event and the shadow's acceleration, from where it is; 0
+    /// if that event is later, or where the motion is curved: the distance then has been looked at.
     pub(super) fn error(&self, t: Double) -> f64 {
         let (time, x, v) = self.told;
-        if t < time.into() {
+        let course = self.course(t);
+        if t < time.into() || course.bend.is_some() {
             return 0.0;
         }
-        let course = self.course(t);
-        let told = Course { t: time.into(), x: x.into(), v: v.into(), a: course.a };
+        let told = Course::parabola(time.into(), [x.into(), v.into(), course.a]);
         (told.at(t) - course.at(t)).length().value()
     }
 }

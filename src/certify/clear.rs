@@ -20,6 +20,8 @@ pub(super) struct Way {
     pub(super) lifts: bool,
     /// Whether bodies touch as the path ends.
     pub(super) end: bool,
+    /// How fast the path may leave this parabola, m/s, from where they agree: the end, if bodies touch there, else the beginning.
+    pub(super) sway: f64,
 }
 
 /// An obstacle about the origin: the point that stands for another sphere, or a wall by its edges, m.
@@ -79,7 +81,12 @@ impl Way {
 
     /// The largest |v| on the way, at most, m/s.
     fn speed(&self) -> f64 {
-        self.v.length() + self.a.length() * self.length
+        self.v.length() + self.a.length() * self.length + self.sway
+    }
+
+    /// How far the path may be from the parabola at `t`, m, and how fast it leaves it, m/s.
+    fn stray(&self, t: f64) -> [f64; 2] {
+        if self.end { [self.sway * (self.length - t), -self.sway] } else { [self.sway * t, self.sway] }
     }
 }
 
@@ -121,9 +128,9 @@ impl Search<'_> {
         let (way, length) = (self.way, to - from);
         let arm = self.shape.arm(way.at(look));
         let n = arm / arm.length();
-        let distance = |t: f64| n.dot(way.at(t)) - self.shape.reach(n) - self.radius;
+        let distance = |t: f64| n.dot(way.at(t)) - self.shape.reach(n) - self.radius - way.stray(t)[0];
         let (first, last) = (distance(from), distance(to));
-        let rates = [from, to].map(|t| n.dot(way.velocity(t)));
+        let rates = [from, to].map(|t| n.dot(way.velocity(t)) - way.stray(t)[1]);
         let clearly = ULPS * way.speed();
         // in touch it must part, and before it touches approach; the distance itself is 0 then
         let starts = from == 0.0 && first.abs() <= self.margin.max(way.overlap);
@@ -136,26 +143,5 @@ impl Search<'_> {
             (false, false) => first + 0.5 * rates[0] * length > self.margin,
         };
         inner && (starts || first > self.margin) && (ends || last > self.margin)
-    }
-}
-
-/// The time (s) up to which |c₀ + c₁ t + c₂ t²| stays below ½, none if it does up to `length`: a foot within a wall.
-pub(super) fn leaves_strip([c0, c1, c2]: [f64; 3], length: f64) -> Option<f64> {
-    let inside = |t: f64| (c0 + (c1 + c2 * t) * t).abs() < 0.5;
-    let turn = -c1 / (2.0 * c2);
-    if inside(length) && (!(turn > 0.0 && turn < length) || inside(turn)) {
-        return None;
-    }
-    let last = if turn > 0.0 && turn < length && !inside(turn) { turn } else { length };
-    let (mut from, mut to) = (0.0, last);
-    if !inside(from) {
-        return Some(0.0);
-    }
-    loop {
-        let middle = 0.5 * (from + to);
-        if middle <= from || middle >= to {
-            return Some(from);
-        }
-        if inside(middle) { from = middle } else { to = middle }
     }
 }

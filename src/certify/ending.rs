@@ -29,11 +29,11 @@ pub enum Cause {
     Simultaneous,
     /// The contacts of one sphere come in another order.
     OtherOrder,
-    /// Rest on a sphere, an edge or a corner: it has no closed form in general.
+    /// Rest on a sphere, an edge or a corner of which rounding decides what holds.
     CurvedRest,
-    /// A sphere that slides on a wall comes to its edge.
+    /// A sphere that slides on a wall comes to its edge, and rounding decides whether over it.
     RollsOver,
-    /// More faces than three hold one sphere, or their forces have no solution.
+    /// Too many contacts hold spheres that lean on each other, or their forces have no solution.
     Support,
     /// Nothing shows that these bodies do not touch.
     Touching,
@@ -54,9 +54,9 @@ impl Cause {
             Cause::Pressed => "it lets go there, and the shadow run finds it pressed",
             Cause::Simultaneous => "it comes at the same time as another contact of the same sphere",
             Cause::OtherOrder => "in the shadow run contacts come in another order",
-            Cause::CurvedRest => "rest on a sphere, an edge or a corner is not certified",
-            Cause::RollsOver => "the sphere slides over the wall's edge",
-            Cause::Support => "too many faces hold the sphere",
+            Cause::CurvedRest => "what holds the sphere there, and for how long, is within rounding",
+            Cause::RollsOver => "the sphere comes to an edge, and whether over it is within rounding",
+            Cause::Support => "too many contacts hold the spheres that lean on each other",
             Cause::Touching => "they come so close that nothing shows whether they touch",
             Cause::Parted => "the run and its shadow are apart by more than a radius",
             Cause::Stalled => "the run went no further",

@@ -1,12 +1,17 @@
 //! The proof that a sphere touches nothing between two events of its own: every other sphere and every wall, one by one.
 
-use super::clear::{Shape, Way, doubt, leaves_strip};
+use super::body::Held;
+use super::clear::{Shape, Way, doubt};
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::glance::{Glance, ROUNDING};
+use super::obstacle::Part;
+use super::polynomial::above;
 use super::shadow::Shadow;
-use super::start::{Start, overlap};
+use super::start::{AT_LOAD, Start, overlap};
 use super::support;
+use super::vector::Vector;
 use crate::physics::Kind;
 
 /// Pairs of bodies that are looked at without asking whether to go on, at most: some seconds.
@@ -15,23 +20,85 @@ const MOST_AT_ONCE: u64 = 100_000_000;
 /// Part of a reach within which it is worth asking whether spheres that touch part: planes show it of all others.
 const NEARLY: f64 = 1e-6;
 
-/// Part of a distance that the quick look gives away for rounding.
-const ROUNDING: f64 = 1e-12;
-
 fn later(one: Double, two: Double) -> Double {
     if one < two { two } else { one }
 }
 
-/// The way of `course` from its beginning to `t`, s.
-fn way(course: &Course, t: Double, radius: f64, end: bool) -> Way {
-    let (x, v, a) = (course.x.value(), course.v.value(), course.a.value());
-    Way { x, v, a, length: (t - course.t).value(), overlap: overlap(course.t, radius), lifts: false, end }
+/// How far (radii) a piece of a curved path may be from its parabola.
+const DEPARTURE: f64 = 1e-6;
+
+/// Most pieces of a curved path.
+const MOST_PIECES: u32 = 1 << 20;
+
+/// The time in which bodies are looked at.
+struct Span {
+    from: Double,
+    /// s
+    length: f64,
+    /// What their distance is held against, m.
+    radius: f64,
+    start: Start,
+    /// Whether they touch as it ends.
+    end: bool,
 }
 
 /// Whether the quick look shows that a body that begins so far away (m) does not come within `radius` (m).
 fn is_far(way: &Way, radius: f64) -> bool {
-    let moves = (way.v.length() + 0.5 * way.a.length() * way.length) * way.length;
+    let moves = (way.v.length() + 0.5 * way.a.length() * way.length + way.sway) * way.length;
     way.x.length() * (1.0 - ROUNDING) > radius + moves * (1.0 + ROUNDING)
+}
+
+impl Span {
+    /// The whole of it, of a motion that begins so and is a parabola.
+    fn way(&self, [x, v, a]: [Vector; 3]) -> Way {
+        let (x, v, a) = (x.value(), v.value(), a.value());
+        Way { x, v, a, length: self.length, overlap: 0.0, lifts: false, end: false, sway: 0.0 }
+    }
+
+    /// The time (s) after the beginning up to which it is shown that a motion, by its place, velocity and acceleration at a time, which
+    /// change by no more than `jerk` (m/s³), stays clear of `shape`; none if it is for the whole span.
+    fn doubt(&self, motion: impl Fn(Double) -> [Vector; 3], jerk: f64, shape: &Shape) -> Option<f64> {
+        let mut count = 1_u32;
+        let width = |count: u32| self.length / f64::from(count);
+        while jerk * width(count) * width(count) * width(count) > 6.0 * DEPARTURE * self.radius {
+            count *= 2;
+            if count > MOST_PIECES {
+                return Some(0.0);
+            }
+        }
+        let length = width(count);
+        (0..count).find_map(|k| {
+            let (from, end) = (length * f64::from(k), self.end && k + 1 == count);
+            let back = if end && jerk > 0.0 { length } else { 0.0 };
+            let [x, v, a] = motion(self.from + Double::from(from + back)).map(Vector::value);
+            let (x, v) = (x - (v - a * (0.5 * back)) * back, v - a * back);
+            let overlap = if k == 0 { overlap(self.from, self.radius) } else { 0.0 };
+            let lifts = k == 0 && self.start == Start::Lifts;
+            let way = Way { x, v, a, length, overlap, lifts, end, sway: jerk * length * length / 6.0 };
+            if matches!(shape, Shape::Point) && is_far(&way, self.radius) {
+                return None;
+            }
+            doubt(&way, shape, self.radius).map(|after| from + after)
+        })
+    }
+
+    /// The rest of the span, from `after` (s) on.
+    fn later(self, after: f64) -> Span {
+        let from = self.from + Double::from(after);
+        Span { from, length: self.length - after, start: Start::Open, ..self }
+    }
+}
+
+/// How |Σ yₖ tᵏ|² changes, as coefficients of t⁰, t¹, …
+fn rise(y: &[Vector]) -> Vec<Double> {
+    let mut terms: Vec<Double> = (0..2 * y.len() - 1)
+        .map(|k| {
+            let pairs = (k.saturating_sub(y.len() - 1)..=k.min(y.len() - 1)).map(|j| y[j].dot(y[k - j]));
+            pairs.fold(Double::ZERO, |sum, product| sum + product)
+        })
+        .collect();
+    terms[0] = Double::ZERO;
+    terms
 }
 
 impl Shadow {
@@ -49,7 +116,12 @@ impl Shadow {
         }
         let (mut first, mut also) = (None, Vec::new());
         let walls = (0..self.plates.len()).map(|w| (Kind::Wall, w));
-        let pairs = (0..self.bodies.len()).filter(|&j| j != i).map(|j| (Kind::Pair, j));
+        let (glance, time, radius) = (Glance::of(&self.bodies[i].now), t.value(), self.bodies[i].radius.value());
+        let near = |j: &usize| {
+            let (other, its) = &self.glances[*j];
+            *j != i && !other.is_apart(&glance, time, radius + its)
+        };
+        let pairs = (0..self.bodies.len()).filter(near).map(|j| (Kind::Pair, j));
         for with in walls.chain(pairs) {
             let doubt = |ends: bool| match with {
                 (Kind::Wall, w) => self.wall_doubt(i, w, t, ends),
@@ -105,19 +177,45 @@ impl Shadow {
         if t <= since {
             return None;
         }
-        let radius = (self.bodies[i].radius + self.bodies[j].radius).value();
-        if is_apart([one, two], t.value(), radius) {
+        let reach = self.bodies[i].radius + self.bodies[j].radius;
+        let radius = reach.value();
+        if Glance::of(one).is_apart(&Glance::of(two), t.value(), radius) {
             return None;
         }
         let relative = one.relative(two, since);
-        let way = way(&relative, t, radius, met);
-        let in_touch = || (way.x.length() - radius).abs() <= NEARLY * radius;
-        if is_far(&way, radius) || (in_touch() && self.parts([(i, one), (j, two)], &relative, way.overlap)) {
+        let (lean, bent) = ((i.min(j), i.max(j)), one.bend.is_some() || two.bend.is_some());
+        if bent && self.leans.contains(&lean) {
             return None;
         }
-        let after = doubt(&way, &Shape::Point, radius)?;
-        let bodies = Some((Kind::Pair, i.min(j), i.max(j)));
-        Some(Ending { time: since.value() + after, bodies, cause: Cause::Touching })
+        let span = Span { from: since, length: (t - since).value(), radius, start: Start::Open, end: met };
+        if !bent && is_far(&span.way(relative.state(since)), radius) {
+            return None;
+        }
+        let in_touch = (relative.x.value().length() - radius).abs() <= NEARLY * radius;
+        let overlap = overlap(since, radius);
+        if in_touch && !bent && self.parts([(i, one), (j, two)], &relative, overlap) {
+            return None;
+        }
+        let motion = |t: Double| {
+            if !bent {
+                return relative.state(t);
+            }
+            let [[x, v, a], [y, w, b]] = [one, two].map(|course| course.state(t));
+            [x - y, v - w, a - b]
+        };
+        let jerk = [one, two].map(|course| course.jerk((t - course.t).value())).iter().sum();
+        let found = span.doubt(motion, jerk, &Shape::Point)?;
+        let bodies = Some((Kind::Pair, lean.0, lean.1));
+        let at = |after: f64| Ending { time: since.value() + after, bodies, cause: Cause::Touching };
+        let gap = || (relative.x.length() - reach).value().abs();
+        if found > 0.0 || !in_touch || gap() > AT_LOAD * radius || one.t != two.t {
+            return Some(at(found));
+        }
+        // in touch and at rest along the normal, they may part by the curvature of their paths
+        let y = difference(&one.terms(), &two.terms());
+        let Some(shown) = above(&rise(&y), radius * radius, span.length) else { return Some(at(found)) };
+        let later = span.later(shown);
+        later.doubt(motion, jerk, &Shape::Point).map(|after| at(shown + after))
     }
 
     /// Whether two spheres, `relative` to each other, touch no more than by `overlap` (m) and come no closer: without
@@ -137,36 +235,60 @@ impl Shadow {
         if t <= body.now.t {
             return None;
         }
-        let radius = body.radius.value();
-        let course = Course { x: body.now.x - self.plates[w].center, ..body.now };
-        let mut way = way(&course, t, radius, met);
-        let start = Start::of(&body.now, &self.plates[w], body.radius);
-        way.lifts = start == Start::Lifts;
+        let (radius, plate) = (body.radius.value(), &self.plates[w]);
         let bodies = Some((Kind::Wall, i, w));
         let at = |after: f64, cause| Ending { time: body.now.t.value() + after, bodies, cause };
-        if start == Start::Glides || body.held.contains(&w) {
-            let leaves = |k: usize| {
-                let dual = self.plates[w].duals[k].value();
-                leaves_strip([dual.dot(way.x), dual.dot(way.v), 0.5 * dual.dot(way.a)], way.length)
-            };
-            let after = [leaves(0), leaves(1)].into_iter().flatten().reduce(f64::min);
-            return after.map(|after| at(after, Cause::RollsOver));
+        if body.holder(w).is_some() {
+            let over = self.dues.get(&i).filter(|due| due.t < t && !self.at_one_time(due.t, t));
+            return over.map(|due| at((due.t - body.now.t).value(), Cause::RollsOver));
         }
-        doubt(&way, &self.shapes[w].1, radius).map(|after| at(after, Cause::Touching))
+        let start = Start::of(&body.now, plate, body.radius);
+        if start == Start::Glides {
+            return None;
+        }
+        let mut span = Span { from: body.now.t, length: (t - body.now.t).value(), radius, start, end: met };
+        let mut shown = 0.0;
+        if let Some(left) = body.left.iter().find(|left| left.wall == w) {
+            let Some(until) = self.leaves(i, left, span.length) else { return Some(at(0.0, Cause::Touching)) };
+            (shown, span) = (until, span.later(until));
+        }
+        let motion = |t: Double| {
+            let [x, v, a] = body.now.state(t);
+            [x - plate.center, v, a]
+        };
+        let jerk = body.now.jerk((t - body.now.t).value());
+        span.doubt(motion, jerk, &self.shapes[w].1).map(|after| at(shown + after, Cause::Touching))
     }
+
+    /// How long (s) sphere `i` is shown to part from an edge or a corner that has just let go of it, at most `length`; none if it is
+    /// not. Beyond the line through an edge, the wall is no nearer than that line.
+    fn leaves(&self, i: usize, left: &Held, length: f64) -> Option<f64> {
+        let (body, plate) = (&self.bodies[i], &self.plates[left.wall]);
+        let terms = body.now.terms();
+        let across = |k: usize| match left.part {
+            _ if k == 0 => left.part.arm(terms[0]),
+            Part::Line(_, along) => terms[k].across(along),
+            _ => terms[k],
+        };
+        let y: Vec<Vector> = (0..terms.len()).map(across).collect();
+        let radius = body.radius;
+        let mut shown = above(&rise(&y), (radius * radius).value(), length)?;
+        let outer = if matches!(left.part, Part::Line(..)) { 1 } else { 2 };
+        for border in plate.borders(left.region).into_iter().take(outer) {
+            let mut room: Vec<Double> = terms.iter().map(|&term| border.normal.dot(term)).collect();
+            room[0] = border.normal.dot(terms[0] - plate.center) + border.offset;
+            shown = above(&room, 1.0, shown)?;
+        }
+        Some(shown)
+    }
+}
+
+/// The difference of two series, term by term.
+fn difference(one: &[Vector], two: &[Vector]) -> Vec<Vector> {
+    let of = |terms: &[Vector], k: usize| terms.get(k).copied().unwrap_or_default();
+    (0..one.len().max(two.len())).map(|k| of(one, k) - of(two, k)).collect()
 }
 
 fn earlier(one: Ending, two: Ending) -> Ending {
     if two.time < one.time { two } else { one }
-}
-
-/// Whether two spheres stay farther apart than `radius` (m) up to `t` (s), by a look that takes no more than `f64`.
-fn is_apart([one, two]: [&Course; 2], t: f64, radius: f64) -> bool {
-    let moves = |course: &Course| {
-        let h = t - course.t.value();
-        (course.v.value().length() + 0.5 * course.a.value().length() * h) * h
-    };
-    let (x, y) = (one.x.value(), two.x.value());
-    let size = x.abs().max_element() + y.abs().max_element();
-    (x - y).length() > (radius + moves(one) + moves(two) + size * ROUNDING) * (1.0 + ROUNDING)
 }

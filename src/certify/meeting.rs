@@ -3,7 +3,7 @@
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
-use super::obstacle::Part;
+use super::obstacle::{Part, Region};
 use super::shadow::{Shadow, ending};
 use super::start::{AT_EVENT, AT_LOAD, Start};
 use super::support::ROUNDING;
@@ -12,7 +12,7 @@ use super::vector::Vector;
 use crate::physics::{Class, Contact, Kind};
 
 /// Part of a time that passes between events of one instant in `exact`: an ulp or two, of which this is some thirty.
-const SAME_TIME: f64 = 1e-14;
+pub(super) const SAME_TIME: f64 = 1e-14;
 
 /// Part of a time that passes between events of one instant in the shadow: rounding of its arithmetic.
 const SAME_SHADOW_TIME: f64 = 1e-25;
@@ -26,7 +26,7 @@ impl Shadow {
     /// Whether a contact holds sphere `i`.
     pub(super) fn holds(&self, i: usize, (kind, b): (Kind, usize)) -> bool {
         match kind {
-            Kind::Wall => self.bodies[i].held.contains(&b),
+            Kind::Wall => self.bodies[i].holder(b).is_some(),
             Kind::Pair => self.leans.contains(&(i.min(b), i.max(b))),
         }
     }
@@ -71,14 +71,17 @@ impl Shadow {
     /// Brings two spheres to where they meet: at once, if they touch already.
     pub(super) fn meet_pair(&mut self, row: &Contact) -> Result<(), Ending> {
         let (a, b) = (row.a, row.b);
-        let [one, two] = [a, b].map(|i| self.bodies[i].now);
+        let [one, two] = [a, b].map(|i| &self.bodies[i].now);
         let since = if one.t < two.t { two.t } else { one.t };
         let told = self.bodies[a].since.max(self.bodies[b].since);
         let mut t = since;
         if self.gap_of_pair([a, b], since).abs() > self.in_touch([a, b], since) || row.time > told * (1.0 + SAME_TIME) {
-            let relative = one.relative(&two, since);
             let reach = self.bodies[a].radius + self.bodies[b].radius;
-            let met = touching(&relative, &Part::Point(Vector::default()), reach, row.time);
+            let relative = |t: Double| {
+                let [[x, v, _], [y, w, _]] = [one, two].map(|course| course.state(t));
+                [x - y, v - w]
+            };
+            let met = touching(relative, &Part::Point(Vector::default()), reach, row.time);
             t = self.not_before(row, met.ok_or_else(|| ending(row, Cause::NoContact))?, since)?;
         }
         for (i, other) in [(a, b), (b, a)] {
@@ -89,11 +92,11 @@ impl Shadow {
     }
 
     /// Brings a sphere to a wall; the part of the wall that it touches.
-    pub(super) fn meet_wall(&mut self, row: &Contact) -> Result<Part, Ending> {
+    pub(super) fn meet_wall(&mut self, row: &Contact) -> Result<(Region, Part), Ending> {
         let (i, w) = (row.a, row.b);
         let (contact, body) = ((Kind::Wall, w), &self.bodies[i]);
-        let (now, radius) = (body.now, body.radius);
-        let holds = body.held.contains(&w);
+        let (now, radius) = (body.now.clone(), body.radius);
+        let holds = body.holder(w).is_some();
         let at_load = row.time == 0.0 && {
             let part = self.plates[w].closest(now.x).1;
             (part.arm(now.x).length() - radius).value().abs() <= AT_LOAD * radius.value()
@@ -105,7 +108,7 @@ impl Shadow {
             }
             self.change(i, now.t, row.time, contact);
             self.count_tie(row, now.t);
-            return Ok(self.plates[w].closest(now.x).1);
+            return Ok(self.plates[w].closest(now.x));
         }
         if holds {
             return Err(ending(row, Cause::OtherClass));
@@ -113,13 +116,14 @@ impl Shadow {
         let mut found = (Double::from(row.time), self.plates[w].closest(now.at(row.time.into())));
         for _ in 0..2 {
             let (_, (region, part)) = found;
-            let t = touching(&now, &part, radius, row.time).ok_or_else(|| ending(row, Cause::NoContact))?;
+            let t = touching(|t| [now.at(t), now.velocity(t)], &part, radius, row.time)
+                .ok_or_else(|| ending(row, Cause::NoContact))?;
             found = (t, self.plates[w].closest(now.at(t)));
             if found.1.0 == region {
                 let t = self.not_before(row, t, now.t)?;
                 self.bring(i, t, row.time, contact)?;
                 self.count_tie(row, t);
-                return Ok(part);
+                return Ok((region, part));
             }
         }
         Err(ending(row, Cause::NoContact))
@@ -127,6 +131,9 @@ impl Shadow {
 
     /// Brings sphere `i` to `t` (s), past what it does not touch on the way.
     fn bring(&mut self, i: usize, t: Double, time: f64, with: (Kind, usize)) -> Result<(), Ending> {
+        if self.dues.get(&i).is_some_and(|due| due.t < t && !self.at_one_time(due.t, t)) {
+            return Err(Ending { time, bodies: Some((with.0, i, with.1)), cause: Cause::OtherOrder });
+        }
         let also = if t == self.bodies[i].now.t { Vec::new() } else { self.clear_until(i, t, Some(with))? };
         self.change(i, t, time, with);
         self.bodies[i].met.extend(also);

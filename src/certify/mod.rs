@@ -2,9 +2,8 @@
 //!
 //! [`certify`] runs a scene by `exact` and a *shadow* beside it in arithmetic of 32 digits ([`Double`]). The shadow is told
 //! which bodies meet next, and nothing else: it finds the time by Newton's iteration, acts by the paper's law, slides on
-//! faces and leans on spheres that move as it does, and shows for all other bodies, by planes between them, that they do
-//! not touch. It shares no code with the solvers and reads the scene, not the model. Where it cannot follow, the
-//! certificate ends, and says why.
+//! faces, over edges and over other spheres, and shows for all other bodies, by planes between them, that they do not touch. It shares no code with the
+//! solvers and reads the scene, not the model. Where it cannot follow, the certificate ends, and says why.
 //!
 //! ```
 //! use carom::certify::certify;
@@ -21,15 +20,18 @@
 //! | `double`, `vector` | the arithmetic |
 //! | `course` | how a sphere moves between events |
 //! | `obstacle` | walls and spheres as what is met: closest points, normals |
+//! | `bend`, `polynomial` | the series of a motion that what holds it bends; where a polynomial falls below 0 |
 //! | `touching`, `start` | when bodies touch; what touches as a motion begins |
 //! | `law`, `support` | what an impact does; what contacts take that hold |
-//! | `clear`, `gaps` | that nothing else touches; by one obstacle, by all |
+//! | `clear`, `glance`, `gaps` | that nothing else touches; by one obstacle, by a quick look, by all |
 //! | `body`, `shadow` | a sphere, and all of them, from event to event |
 //! | `meeting`, `island` | how bodies come to a contact; how an instant ends, for spheres that lean on each other |
+//! | `next` | what comes next by itself of spheres that rest |
 //! | `ending` | why a certificate ends |
 //! | `growth` | when the error became how large |
 //! | `certificate` | `exact` and the shadow side by side; begin here |
 
+mod bend;
 mod body;
 mod certificate;
 mod clear;
@@ -37,11 +39,14 @@ mod course;
 mod double;
 mod ending;
 mod gaps;
+mod glance;
 mod growth;
 mod island;
 mod law;
 mod meeting;
+mod next;
 mod obstacle;
+mod polynomial;
 mod shadow;
 mod start;
 mod support;

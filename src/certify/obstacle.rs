@@ -11,7 +11,7 @@ pub(super) struct Plate {
     pub(super) center: Vector,
     /// Edges, m.
     edges: [Vector; 2],
-    /// Unit normal, m.
+    /// Unit normal.
     pub(super) normal: Vector,
     /// Vectors (1/m) whose products with x − c are u and w.
     pub(super) duals: [Vector; 2],
@@ -30,6 +30,19 @@ pub(super) enum Part {
 
 /// Which of the parts of a wall it is: −1, 0 or 1 for u and w, 0 where it is between the edges.
 pub(super) type Region = [i8; 2];
+
+/// The face of a wall.
+pub(super) const FACE: Region = [0, 0];
+
+/// Where another part of a wall takes over: where n · (x − c) + `offset` falls below 0, c being the wall's centre.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Border {
+    /// n, 1/m.
+    pub(super) normal: Vector,
+    pub(super) offset: Double,
+    /// The part that takes over.
+    pub(super) beyond: Region,
+}
 
 impl Plate {
     pub(super) fn new(wall: &Wall) -> Plate {
@@ -61,8 +74,58 @@ impl Plate {
         best.map_or(([0, 0], Part::Point(self.center)), |(_, region, part)| (region, part))
     }
 
-    /// Squared distance (m²) of `q` (from the centre, m) from the edge parallel to edge `along`, on the `sign` side of the
-    /// other, and what of it is closest.
+    /// The part of the wall in a region, seen from `x`.
+    pub(super) fn part(&self, region: Region, x: Vector) -> Part {
+        let half = |k: usize| self.edges[k] * Double::from(0.5 * f64::from(region[k]));
+        match region.map(|place| place == 0) {
+            [true, true] => {
+                let behind = (x - self.center).dot(self.normal) < Double::ZERO;
+                Part::Plane(self.center, if behind { -self.normal } else { self.normal })
+            }
+            [true, false] => Part::Line(self.center + half(1), self.edges[0].unit()),
+            [false, true] => Part::Line(self.center + half(0), self.edges[1].unit()),
+            [false, false] => Part::Point(self.center + half(0) + half(1)),
+        }
+    }
+
+    /// Where a region ends. Of an edge the first is that to the face.
+    pub(super) fn borders(&self, region: Region) -> Vec<Border> {
+        let half = Double::from(0.5);
+        let with = |k: usize, place: i8| {
+            let mut beyond = region;
+            beyond[k] = place;
+            beyond
+        };
+        // how far along edge k, which is on side `side` of the wall: from −½ to ½
+        let along = |k: usize, side: i8| {
+            let normal = self.edges[k] * (Double::ONE / self.edges[k].dot(self.edges[k]));
+            let middle = self.edges[1 - k] * Double::from(0.5 * f64::from(side));
+            (normal, -normal.dot(middle))
+        };
+        let inside = |(normal, offset): (Vector, Double), k: usize| {
+            [1_i8, -1].map(|place| {
+                let sign = Double::from(-f64::from(place));
+                Border { normal: normal * sign, offset: half + offset * sign, beyond: with(k, place) }
+            })
+        };
+        let outside = |(normal, offset): (Vector, Double), k: usize| {
+            let sign = Double::from(f64::from(region[k]));
+            Border { normal: normal * sign, offset: offset * sign - half, beyond: with(k, 0) }
+        };
+        let face = |k: usize| (self.duals[k], Double::ZERO);
+        match region.map(|place| place == 0) {
+            [true, true] => inside(face(0), 0).into_iter().chain(inside(face(1), 1)).collect(),
+            [false, false] => vec![outside(along(0, region[1]), 0), outside(along(1, region[0]), 1)],
+            [first, _] => {
+                let k = usize::from(!first); // runs along edge k
+                let ends = inside(along(k, region[1 - k]), k);
+                [outside(face(1 - k), 1 - k)].into_iter().chain(ends).collect()
+            }
+        }
+    }
+
+    /// Of the edge parallel to edge `along`, on the `sign` side of the other: distance squared of `q` (from the centre), and what
+    /// is closest.
     fn closest_on_edge(&self, q: Vector, along: usize, sign: i8) -> (Double, Region, Part) {
         let (edge, aside) = (self.edges[along], self.edges[1 - along]);
         let middle = aside * Double::from(0.5 * f64::from(sign));

@@ -1,17 +1,18 @@
 //! The shadow run: it is told which bodies `exact` has brought together, and finds the rest by itself.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use super::body::Body;
+use super::body::{Body, Due, Held};
 use super::clear::Shape;
 use super::course::Course;
 use super::double::Double;
 use super::ending::{Cause, Ending};
+use super::glance::Glance;
 use super::growth::Growth;
 use super::law;
-use super::obstacle::{Part, Plate};
+use super::obstacle::Plate;
 use super::vector::Vector;
 use crate::physics::{Class, Contact, Kind, State};
 use crate::scene::{ContactLaw, Scene};
@@ -23,6 +24,8 @@ pub(super) struct Shadow {
     pub(super) plates: Vec<Plate>,
     pub(super) shapes: Vec<(DVec3, Shape)>,
     pub(super) bodies: Vec<Body>,
+    /// What a quick look sees of each, and its radius, m.
+    pub(super) glances: Vec<(Glance, f64)>,
     /// Pairs of bodies looked at.
     pub(super) looks: u64,
     /// Most pairs of bodies that a certificate may look at.
@@ -31,6 +34,16 @@ pub(super) struct Shadow {
     pub(super) changed: Vec<usize>,
     /// Pairs of spheres, the lower index first, that rest on each other.
     pub(super) leans: BTreeSet<(usize, usize)>,
+    /// When the run ends, s.
+    pub(super) until: f64,
+    /// What comes next by itself, by sphere.
+    pub(super) dues: BTreeMap<usize, Due>,
+    /// Whether a motion has been curved.
+    pub(super) curved: bool,
+    /// When (s) and where (m) a sphere was whose curved motion has changed since `exact` was last looked at.
+    pub(super) checks: Vec<(f64, usize, Vector)>,
+    /// Contacts that `exact` has let go and the shadow has not: sphere, with what, and when, s.
+    pub(super) let_go: Vec<(usize, (Kind, usize), f64)>,
     /// Impacts whose order is told by `exact` alone.
     pub(super) ties: u64,
     /// The largest distance of `exact` from the shadow so far, m.
@@ -45,38 +58,45 @@ fn shape(plate: &Plate, wall: &crate::scene::Wall) -> (DVec3, Shape) {
 }
 
 impl Shadow {
-    pub(super) fn new(scene: &Scene, most_looks: u64) -> Shadow {
+    pub(super) fn new(scene: &Scene, until: f64, most_looks: u64) -> Shadow {
         let plates: Vec<Plate> = scene.walls.iter().map(Plate::new).collect();
         let body = |sphere: &crate::scene::Sphere| {
             let mass = Double::from(sphere.mass);
             let pull = Vector::from(scene.gravity) + Vector::from(sphere.force) * (Double::ONE / mass);
-            let now = Course { t: Double::ZERO, x: sphere.x.into(), v: sphere.v.into(), a: pull };
+            let now = Course::parabola(Double::ZERO, [sphere.x.into(), sphere.v.into(), pull]);
             let told = (0.0, sphere.x, sphere.v);
-            let (held, met, open) = (Vec::new(), Vec::new(), false);
             let start = now.x;
             Body {
                 mass,
                 radius: sphere.radius.into(),
                 start,
+                before: now.clone(),
                 now,
-                before: now,
                 pull,
-                held,
-                met,
-                open,
+                held: Vec::new(),
+                left: Vec::new(),
+                met: Vec::new(),
+                open: false,
                 since: 0.0,
                 told,
             }
         };
+        let bodies: Vec<Body> = scene.spheres.iter().map(body).collect();
         Shadow {
             law: scene.contact,
             shapes: plates.iter().zip(&scene.walls).map(|(plate, wall)| shape(plate, wall)).collect(),
             plates,
-            bodies: scene.spheres.iter().map(body).collect(),
+            glances: bodies.iter().map(|body| (Glance::of(&body.now), body.radius.value())).collect(),
+            bodies,
             looks: 0,
             most_looks,
             changed: Vec::new(),
             leans: BTreeSet::new(),
+            until,
+            dues: BTreeMap::new(),
+            curved: false,
+            checks: Vec::new(),
+            let_go: Vec::new(),
             ties: 0,
             error: 0.0,
             growth: Growth::default(),
@@ -85,6 +105,7 @@ impl Shadow {
 
     /// Follows a contact that `exact` tells.
     pub(super) fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
+        self.has_let_go(row)?;
         match (row.class, row.kind) {
             (Class::Leave, _) => Ok(()),
             (Class::Release, _) => self.release(row),
@@ -127,23 +148,21 @@ impl Shadow {
 
     fn wall(&mut self, row: &Contact) -> Result<(), Ending> {
         let (i, w) = (row.a, row.b);
-        let part = self.meet_wall(row)?;
-        let now = self.bodies[i].now;
+        let (region, part) = self.meet_wall(row)?;
+        let now = &self.bodies[i].now;
         let normal = part.normal(now.x);
         let v_n = now.v.dot(normal);
         if row.class == Class::Collide {
             self.is_impact(row, v_n)?;
-            self.bodies[i].now.v = law::off_wall(&self.law, now.v, normal);
+            self.bodies[i].now.v = law::off_wall(&self.law, self.bodies[i].now.v, normal);
             return Ok(());
         }
-        if v_n < -Double::from(self.law.rest_speed) && !self.bodies[i].held.contains(&w) {
+        let held = self.bodies[i].holder(w).is_some();
+        if v_n < -Double::from(self.law.rest_speed) && !held {
             return Err(ending(row, Cause::OtherClass));
         }
-        if !matches!(part, Part::Plane(..)) {
-            return Err(ending(row, Cause::CurvedRest));
-        }
-        if !self.bodies[i].held.contains(&w) {
-            self.bodies[i].held.push(w);
+        if !held {
+            self.bodies[i].held.push(Held { wall: w, region, part });
         }
         Ok(())
     }
@@ -151,6 +170,8 @@ impl Shadow {
     /// Lets a sphere go on from `t` (s), at which `exact` has `time` (s), where it meets something.
     pub(super) fn change(&mut self, i: usize, t: Double, time: f64, with: (Kind, usize)) {
         self.bodies[i].meet(t, with);
+        self.dues.remove(&i);
+        self.glances[i].0 = self.glances[i].0.unknown();
         self.bodies[i].since = time;
         if !self.changed.contains(&i) {
             self.changed.push(i);
@@ -163,28 +184,55 @@ impl Shadow {
         if open || !self.holds(a, (kind, b)) {
             return Ok(()); // whether it lets go is found as the instant ends
         }
-        self.clear_until(a, row.time.into(), None)?;
-        Err(ending(row, Cause::Pressed))
+        self.let_go.push((a, (kind, b), row.time));
+        Ok(())
+    }
+
+    /// Refuses if the shadow still holds what `exact` has let go before, of a sphere of which it now tells something else.
+    fn has_let_go(&mut self, row: &Contact) -> Result<(), Ending> {
+        let sides = [Some(row.a), (row.kind == Kind::Pair).then_some(row.b)];
+        let found = self.let_go.iter().position(|(a, (kind, b), time)| {
+            let told = sides.contains(&Some(*a)) || (*kind == Kind::Pair && sides.contains(&Some(*b)));
+            told && row.time > *time
+        });
+        found.map_or(Ok(()), |found| self.still_holds(found))
+    }
+
+    /// Refuses if the shadow still holds what `exact` has let go.
+    pub(super) fn still_holds(&mut self, found: usize) -> Result<(), Ending> {
+        let (a, (kind, b), time) = self.let_go.swap_remove(found);
+        if !self.holds(a, (kind, b)) {
+            return Ok(());
+        }
+        Err(Ending { time, bodies: Some((kind, a, b)), cause: Cause::Pressed })
     }
 
     fn is_impact(&self, row: &Contact, v_n: Double) -> Result<(), Ending> {
         if v_n < -Double::from(self.law.rest_speed) { Ok(()) } else { Err(ending(row, Cause::OtherClass)) }
     }
 
-    /// Holds what `exact` says of the spheres that changed against the shadow.
+    /// Holds what `exact` says of the spheres that changed, and of those in curved motion, against the shadow.
     pub(super) fn compare(&mut self, state: &State) -> Result<(), Ending> {
-        for &i in &self.changed {
-            let body = &mut self.bodies[i];
-            let t = Double::from(state.t);
-            let error = (Vector::from(state.x[i]) - body.course(t).at(t)).length().value();
-            if error.is_nan() || error > body.radius.value() {
-                return Err(Ending { time: body.now.t.value(), bodies: None, cause: Cause::Parted });
-            }
-            self.growth.note(body.told.0, error);
-            body.told = (state.t, state.x[i], state.v[i]);
-            self.error = self.error.max(error);
+        let all = if self.curved { self.bodies.len() } else { 0 };
+        let curved = (0..all).filter(|&i| self.bodies[i].now.bend.is_some());
+        let compared: BTreeSet<usize> = self.changed.iter().copied().chain(curved).collect();
+        for i in compared {
+            self.differs(i, state, self.bodies[i].course(state.t.into()).at(state.t.into()))?;
+            self.bodies[i].told = (state.t, state.x[i], state.v[i]);
         }
         self.changed.retain(|&i| self.bodies[i].open);
+        Ok(())
+    }
+
+    /// Holds where `exact` has sphere `i` against its place in the shadow, m.
+    pub(super) fn differs(&mut self, i: usize, state: &State, place: Vector) -> Result<(), Ending> {
+        let body = &self.bodies[i];
+        let error = (Vector::from(state.x[i]) - place).length().value();
+        if error.is_nan() || error > body.radius.value() {
+            return Err(Ending { time: body.now.t.value(), bodies: None, cause: Cause::Parted });
+        }
+        self.growth.note(body.told.0, error);
+        self.error = self.error.max(error);
         Ok(())
     }
 }

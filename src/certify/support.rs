@@ -45,8 +45,19 @@ impl Prop {
     }
 }
 
-/// What is left of `u`, by sphere, and by contact whether it stays closed; none if no set of contacts fits.
-pub(super) fn held(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<(Vec<Vector>, Vec<bool>)> {
+/// What contacts leave of velocities or accelerations.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Kept {
+    /// What is left, by sphere.
+    pub(super) left: Vec<Vector>,
+    /// By contact, whether it stays closed.
+    pub(super) closed: Vec<bool>,
+    /// By contact, whether it pushes.
+    pub(super) pushes: Vec<bool>,
+}
+
+/// What is left of `u`, by sphere, and what becomes of each contact; none if no set of contacts fits.
+pub(super) fn held(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<Kept> {
     let largest = u.iter().map(|u| u.length()).chain(props.iter().map(|prop| prop.bias.abs()));
     let small = Double::from(ROUNDING) * largest.fold(Double::ZERO, |most, size| if size > most { size } else { most });
     (0..1_u32 << props.len()).find_map(|set| {
@@ -61,12 +72,18 @@ pub(super) fn held(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<(V
         }
         let pushes = |(force, prop): (&Double, &Prop)| *force / masses[prop.body] >= -small;
         let fits = forces.iter().zip(&chosen).all(pushes) && props.iter().all(|prop| prop.rate(&w) >= -small);
-        fits.then(|| (w.clone(), props.iter().map(|prop| prop.rate(&w) <= small).collect()))
+        let push = |k: usize| (0..k).filter(|k| set >> k & 1 == 1).count();
+        let is_push = |k: usize| set >> k & 1 == 1 && forces[push(k)] / masses[props[k].body] > small;
+        fits.then(|| Kept {
+            closed: props.iter().map(|prop| prop.rate(&w) <= small).collect(),
+            pushes: (0..props.len()).map(is_push).collect(),
+            left: w,
+        })
     })
 }
 
 /// The forces of contacts that all stay closed, by elimination; none if their normals depend on each other.
-fn forces(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<Vec<Double>> {
+pub(super) fn forces(u: &[Vector], masses: &[Double], props: &[Prop]) -> Option<Vec<Double>> {
     let count = props.len();
     let mut rows: Vec<Vec<Double>> = props
         .iter()

@@ -1,8 +1,8 @@
 //! When a sphere and an obstacle touch: Newton's iteration on the distance, or on its square.
 
-use super::course::Course;
 use super::double::Double;
 use super::obstacle::Part;
+use super::vector::Vector;
 
 /// Steps of Newton's iteration after which there is nothing near: from 16 digits three suffice, a graze takes one per bit.
 const MOST_STEPS: u32 = 120;
@@ -10,12 +10,18 @@ const MOST_STEPS: u32 = 120;
 /// A step that is no shorter than half the one before stands for rounding once it is this part of the time: 2⁻⁷⁵.
 const ROUNDING: f64 = 2.7e-23;
 
-/// When `course` comes as near as `reach` (m) to `part`, s, close to `guess` (s); none if it does not approach there.
-pub(super) fn touching(course: &Course, part: &Part, reach: Double, guess: f64) -> Option<Double> {
+/// When a motion, place (m) and velocity (m/s) by time, comes as near as `reach` (m) to `part`, s, close to `guess` (s); none
+/// if it does not approach there.
+pub(super) fn touching(
+    motion: impl Fn(Double) -> [Vector; 2],
+    part: &Part,
+    reach: Double,
+    guess: f64,
+) -> Option<Double> {
     let mut t = Double::from(guess);
     let mut last = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        let [excess, rate] = part.excess([course.at(t), course.velocity(t)], reach);
+        let [excess, rate] = part.excess(motion(t), reach);
         if !(rate < Double::ZERO && excess.value().is_finite()) {
             return None;
         }

@@ -229,7 +229,7 @@ pub(super) struct Measure {
     /// Write every row as CSV; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) csv: Option<Target>,
-    /// Draw the trade as a figure; - is standard output
+    /// Draw the trade, or the crowds, as a figure; - is standard output
     #[arg(long, value_name = "FILE", value_parser = target(), value_hint = ValueHint::FilePath)]
     pub(super) svg: Option<Target>,
     /// Write every row as JSON, an object a line, with the command that repeats it and the machine; - is standard output
@@ -249,7 +249,7 @@ pub(super) struct Measure {
     #[arg(long, value_name = "E", default_value = "1e-6", value_parser = numbers::positive, allow_hyphen_values = true)]
     pub(super) error: f64,
     /// Judge a crowd beyond its horizon instead: means and standard errors over N runs that begin a hair aside
-    #[arg(long, value_name = "N", value_parser = numbers::count, conflicts_with_all = ["merge", "svg"])]
+    #[arg(long, value_name = "N", value_parser = numbers::count, conflicts_with = "merge")]
     pub(super) crowd: Option<usize>,
     /// Measure only part I of N, I from 1; of a crowd the table has its runs
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
@@ -258,6 +258,13 @@ pub(super) struct Measure {
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scenes", "shard", "dt", "tolerances", "jobs", "timeout"],
           value_hint = ValueHint::FilePath)]
     pub(super) merge: Vec<PathBuf>,
+}
+
+impl Measure {
+    /// What it writes, by the option that asks for it.
+    pub(super) fn outputs(&self) -> [(&'static str, Option<&Target>); 3] {
+        [("--csv", self.csv.as_ref()), ("--svg", self.svg.as_ref()), ("--json", self.json.as_ref())]
+    }
 }
 
 const JUDGE: &str = "\

@@ -1,23 +1,22 @@
 //! `carom measure SCENE…`: what accuracy costs, as a table, a chart, CSV and a figure.
 
 use std::path::PathBuf;
-use std::thread;
 
 use super::arguments::Measure;
 use super::failure::{Failure, note};
+use super::origin::{command, machine};
 use super::progress::{self, STEPS};
 use super::results::{Results, jobs, rows, scenes};
 use super::signals::Signals;
-use super::target::{Target, refuse_shared};
+use super::target::refuse_shared;
 use crate::export::{Format, TradeNote, TradeRow, read_trade};
 use crate::measure::{self, Advance, Axes, Ladder, Measured, Placed, Rung, Shard, Sweep, Yardstick};
-use crate::printable;
 use crate::scene::{self, Method, Opened};
 
 pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Failure> {
-    refuse_shared(&outputs(arguments), &[])?;
+    refuse_shared(&arguments.outputs(), &[])?;
     let merged: Vec<_> = arguments.merge.iter().map(|path| ("the part", path.as_path())).collect();
-    refuse_shared(&outputs(arguments), &merged)?;
+    refuse_shared(&arguments.outputs(), &merged)?;
     if let Some(seeds) = arguments.crowd {
         return super::crowd::crowd(arguments, seeds, ladder(arguments), signals);
     }
@@ -42,10 +41,6 @@ pub(super) fn measure(arguments: &Measure, signals: &Signals) -> Result<(), Fail
     interrupted
 }
 
-fn outputs(arguments: &Measure) -> [(&'static str, Option<&Target>); 3] {
-    [("--csv", arguments.csv.as_ref()), ("--svg", arguments.svg.as_ref()), ("--json", arguments.json.as_ref())]
-}
-
 /// Which methods compete on the front: `exact`, the yardstick, only if it was asked for.
 fn allowed(arguments: &Measure) -> Vec<Method> {
     match &arguments.methods {
@@ -65,7 +60,7 @@ fn ladder(arguments: &Measure) -> Ladder {
 }
 
 fn sweep(arguments: &Measure, signals: &Signals) -> Result<Measured, Failure> {
-    let opened = scenes(&arguments.scenes, &outputs(arguments))?;
+    let opened = scenes(&arguments.scenes, &arguments.outputs())?;
     let ladder = ladder(arguments);
     opened.iter().filter_map(|opened| endless(opened, &ladder)).for_each(|warning| note(&warning));
     let scenes = opened.into_iter().map(|opened| (opened.key, opened.scene)).collect();
@@ -112,20 +107,4 @@ fn read_all(paths: &[PathBuf]) -> Result<Vec<Placed>, Failure> {
         all.extend(read.into_iter().map(|(place, row)| Placed { place, row }));
     }
     Ok(all)
-}
-
-/// What the timings are of: processor, cores, system, version.
-fn machine() -> String {
-    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    let model = model.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    let (system, version) = (std::env::consts::OS, env!("CARGO_PKG_VERSION"));
-    printable::escaped(&format!("{model}, {cores} cores, {system}, carom {version}"))
-}
-
-/// The command line that was given.
-fn command() -> String {
-    let words: Vec<String> = std::env::args_os().skip(1).map(|word| printable::name(&word)).collect();
-    format!("carom {}", words.join(" "))
 }

@@ -38,6 +38,7 @@ mod man;
 mod measure;
 mod methods;
 mod numbers;
+mod origin;
 mod output;
 mod place;
 mod play;

@@ -61,14 +61,14 @@ impl CrowdPlan {
     }
 }
 
-/// Runs each setting from so many seeds, or a part of that; `done` is called after each run, on its thread. None if `go_on`
-/// returned false.
+/// Runs each setting from so many seeds, or a part of that; `done` is called after each run, on its thread. If `go_on`
+/// returned false, the runs that were complete by then.
 pub fn crowd_runs(
     (key, scene): (&str, &Scene),
     plan: &CrowdPlan,
     go_on: GoOn,
     done: &(dyn Fn() + Sync),
-) -> Option<Vec<CrowdRun>> {
+) -> Vec<CrowdRun> {
     let (seeds, tasks) = (plan.seeds as usize, plan.tasks());
     let runs = side_by_side(tasks.len(), plan.jobs, |index| {
         let (rung, seed) = (plan.rungs[tasks[index] / seeds], (tasks[index] % seeds) as u64 + 1);
@@ -87,12 +87,15 @@ pub fn crowd_runs(
             figures: ran.figures,
         })
     });
-    runs.into_iter().collect()
+    runs.into_iter().flatten().collect()
 }
 
 /// Runs each setting from so many seeds and gathers the means. None if `go_on` returned false.
 pub fn crowds(scene: &Scene, plan: &CrowdPlan, go_on: GoOn) -> Option<Vec<Crowd>> {
-    let runs = crowd_runs(("", scene), plan, go_on, &|| ())?;
+    let runs = crowd_runs(("", scene), plan, go_on, &|| ());
+    if runs.len() < plan.runs() {
+        return None;
+    }
     let placed = runs.into_iter().map(|run| PlacedRun { place: String::new(), run });
     gather(placed).ok().map(|scenes| scenes.into_iter().flat_map(|scene| scene.crowds).collect())
 }

@@ -22,7 +22,7 @@ const PLOT: Plot = Plot { left: 80.0, top: 50.0, width: 520.0, height: 340.0 };
 const TICKS: (usize, usize) = (9, 12);
 
 /// Colours that the colour-blind tell apart and that print as different greys (Okabe & Ito 2008), by marker.
-const COLORS: [&str; 5] = ["#0072b2", "#d55e00", "#000000", "#009e73", "#cc79a7"];
+pub(super) const COLORS: [&str; 5] = ["#0072b2", "#d55e00", "#000000", "#009e73", "#cc79a7"];
 
 /// Where a plot lies, px.
 #[derive(Clone, Copy)]
@@ -185,7 +185,7 @@ fn steps(rows: &[TradeRow], best: &[usize], axes: &Frame, svg: &mut String) {
 }
 
 /// The mark of a method, filled on the front; `tip` shows when the pointer rests on it.
-fn marker(method: &str, (x, y): (f64, f64), filled: bool, tip: &str, svg: &mut String) {
+pub(super) fn marker(method: &str, (x, y): (f64, f64), filled: bool, tip: &str, svg: &mut String) {
     let index = Method::from_name(method).and_then(|method| Method::ALL.iter().position(|other| *other == method));
     let index = index.unwrap_or(COLORS.len() - 1) % COLORS.len();
     let color = COLORS[index];
@@ -228,6 +228,6 @@ fn legend(rows: &[TradeRow], svg: &mut String) {
     let _ = writeln!(svg, r##"<path stroke="#555555" stroke-width="1.5" d="M{} {y}h16"/>"##, left - 8.0);
 }
 
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     printable::escaped(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

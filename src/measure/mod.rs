@@ -52,7 +52,8 @@
 //! | `fit` | the order at which an error falls |
 //! | `accuracy` | the cheapest setting that meets an error |
 //! | `observables` | what a crowd is seen to do, in a run or a file |
-//! | `crowd`, `crowds`, `crowd_report` | what means over many seeds say beyond the horizon; many runs, or parts joined; in words |
+//! | `crowd`, `crowds` | what means over many seeds say beyond the horizon; many runs, or parts joined |
+//! | `crowd_report`, `crowd_figure` | the same in words and as SVG |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
 
@@ -62,6 +63,7 @@ mod chart;
 mod clock;
 mod cost;
 mod crowd;
+mod crowd_figure;
 mod crowd_report;
 mod crowds;
 mod deviation;
@@ -93,6 +95,7 @@ pub use axes::{Axes, Cost as CostAxis, Error as ErrorAxis};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};
 pub use crowd::{Crowd, Mean, Ran, Stopped, crowd_run};
+pub use crowd_figure::crowd_figure;
 pub use crowd_report::{crowd_report, crowd_rows};
 pub use crowds::{CrowdPlan, GatherError, PlacedRun, SceneCrowds, crowd_runs, crowds, gather};
 pub use deviation::{Deviation, common_impacts, impact_time_error};

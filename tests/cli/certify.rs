@@ -15,10 +15,14 @@ fn a_certified_run_says_until_when_and_how_far_it_is_off_and_is_the_run_by_exact
 
 #[test]
 fn a_certificate_that_ends_early_says_where_and_why_and_is_no_failure() {
-    let ran = carom(&["run", "zigzag", "--certify", "--until", "4"]).succeeds();
+    let ran = carom(&["run", "stack", "--certify", "--until", "1"]).succeeds();
     let line = closing(&ran.out);
-    assert!(line.certified_until.is_some_and(|until| until > 2.0 && until < 4.0), "{}", ran.out);
-    assert!(ran.err.contains("certified until 2.") && ran.err.contains("edge"), "{}", ran.err);
+    assert!(line.certified_until.is_some_and(|until| until > 0.16 && until < 0.2), "{}", ran.out);
+    assert!(
+        ran.err.contains("certified until 0.1") && ran.err.contains("no longer because of spheres "),
+        "{}",
+        ran.err
+    );
 }
 
 #[test]

@@ -149,6 +149,33 @@ fn an_interrupt_before_anything_is_done_keeps_the_old_results() {
 }
 
 #[test]
+fn an_interrupt_of_a_crowd_keeps_the_runs_that_are_done_and_says_how_many() {
+    let folder = folder();
+    let (csv, svg) = (in_folder(&folder, "crowd.csv"), in_folder(&folder, "crowd.svg"));
+    // A run of the second setting has 2e9 frames, more than a test waits for.
+    let ask = |arguments: &[&str]| {
+        let setting = ["measure", "paper-0", "--crowd", "2", "--methods=paper", "--tolerances=1e-3", "--jobs=1"];
+        pty::carom(&[&setting[..], &["--csv", &csv, "--svg", &svg], arguments].concat()).run()
+    };
+    let mut pty = ask(&["--dt=1e-8"]);
+    pty.until_text("0 of 2 runs");
+    pty.signal(Signal::INT);
+    assert_eq!(pty.exit(), 130);
+    assert!(pty.text().contains("interrupted: none of 2 runs is done; nothing is written"), "{}", pty.text());
+    assert_eq!(names_in(&folder), [""; 0]);
+    let mut pty = ask(&["--dt=1e-2,1e-8"]);
+    pty.until_text("2 of 4 runs");
+    pty.signal(Signal::INT);
+    assert_eq!(pty.exit(), 130);
+    assert!(pty.text().contains("interrupted: 2 of 4 runs are done and kept"), "{}", pty.text());
+    let text = fs::read_to_string(&csv).expect("what is done");
+    let row = text.lines().find(|line| line.contains("energy at the end")).expect("a figure");
+    assert!(row.starts_with("paper-0,paper,0.01,0.001,2,20.0,") && !text.contains("1e-8"), "{text}");
+    let drawn = fs::read_to_string(&svg).expect("a figure of what is done");
+    assert!(drawn.contains("means over 2 seeds") && drawn.ends_with("</svg>\n"), "{drawn}");
+}
+
+#[test]
 fn a_broken_part_is_refused_with_file_and_line() {
     let folder = folder();
     let path = in_folder(&folder, "part.csv");

@@ -3,7 +3,9 @@
 use std::fs;
 
 use carom::export::FIGURES;
-use carom::measure::{Budget, Crowd, CrowdPlan, Mean, Rung, SceneCrowds, Shard, crowd_report, crowd_rows, crowds};
+use carom::measure::{
+    Budget, Crowd, CrowdPlan, Mean, Rung, SceneCrowds, Shard, crowd_figure, crowd_report, crowd_rows, crowds,
+};
 use carom::physics::{Method, Scene};
 use carom::scene::ContactLaw;
 use glam::{DVec3, dvec3};
@@ -60,6 +62,34 @@ fn a_heap_at_rest_is_carried_by_the_walls_and_half_the_step_agrees() {
     let text = crowd_report(&heaps);
     assert!(text.contains("30 seeds") && text.contains("standard") && text.contains("half the step gives"), "{text}");
     assert!(text.lines().filter(|line| line.starts_with("  ")).all(|line| line.chars().count() <= 80), "{text}");
+    let drawn = crowd_figure(&[heaps], "carom measure <heap>");
+    // Of each setting a band, a line and marks of energy and of heights, and what the walls carry.
+    assert_eq!((drawn.matches("fill-opacity=\"0.2\"").count(), drawn.matches("<title>").count()), (4, 20), "{drawn}");
+    assert!(drawn.contains("&lt;heap&gt;") && !drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+}
+
+#[test]
+fn a_crowd_of_which_nothing_is_known_is_drawn_all_the_same() {
+    let drawn = crowd_figure(&[SceneCrowds { key: "heap".into(), until: 2.0, seeds: 3, crowds: vec![] }], "");
+    assert!(drawn.ends_with("</svg>\n") && !drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+}
+
+#[test]
+fn by_paper_the_floor_carries_the_weight_of_what_rests_on_it_to_rounding() {
+    // It cannot hold what leans on others; three balls on the floor it can.
+    let law = ContactLaw { restitution: 0.0, wall_restitution: 0.0, tangential: 1.0, rest_speed: 0.1 };
+    let balls = [-2.0, 0.0, 2.0].map(|x: f64| sphere(dvec3(x, 0.5 + 0.05 * x.abs(), 0.0), DVec3::ZERO, 0.5));
+    let walls = room(dvec3(-5.0, 0.0, -5.0), dvec3(5.0, 4.0, 5.0));
+    let heap = changed(&scene(G, law, walls, balls.to_vec()), |draft| draft.duration = 2.0);
+    let rungs = [1e-2, 5e-3].map(|dt| Rung { method: Method::Paper, dt: Some(dt), tolerance: Some(1e-6) });
+    let found = crowds(&heap, &plan(&rungs, 2, 1), ON).expect("it is not interrupted");
+    for crowd in found {
+        for figure in ["contact forces / weight", "load on walls / weight"] {
+            let load = of(&crowd, figure).mean;
+            assert!((load - 1.0).abs() < 1e-9, "{figure}: {load:?}");
+        }
+        assert!(crowd.finished == (2, 2) && of(&crowd, "pull at rest").mean == 0.0, "{crowd:?}");
+    }
 }
 
 #[test]
