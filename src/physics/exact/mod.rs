@@ -22,5 +22,5 @@ pub(super) const DESCRIPTION: Description = Description {
     source: "Lubachevsky 1991; event rule of Bannerman et al. 2014; complementarity of resting islands",
     knobs: "none: dt only sets the frames that are shown, the tolerance is not used",
     avoid: "crowds that settle with restitution below 1: their events come ever faster (of fifty spheres that fall into a \
-            box half a second takes 0.4 s of the processor at most, the next half second up to 10 s)",
+            box half a second takes 0.3 s of the processor at most, the next half second up to 8 s)",
 };
