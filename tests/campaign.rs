@@ -35,7 +35,9 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{Failure, Generator, Met};
-use mended::{LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES};
+use mended::{
+    LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES, MENDED_UNITS,
+};
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
 const ROOMS: Generator = Generator { scene: rooms::room_scene, halves: 20, budget: 20_000_000, boxed: true };
@@ -192,5 +194,9 @@ fn heaps_pass_the_judge() {
 
 #[test]
 fn other_units_give_the_same_run() {
-    campaign(30, 20, &|seed, halves, met| units::check(seed, 0.5 * f64::from(halves), met));
+    let check: Check = &|seed, halves, met| units::check(seed, 0.5 * f64::from(halves), met);
+    campaign(30, 20, check);
+    let (_, failures) = sweep(&MENDED_UNITS, check);
+    let shown: Vec<&str> = failures.iter().map(|failure| failure.text.as_str()).collect();
+    assert!(failures.is_empty(), "{}", shown.join("\n"));
 }

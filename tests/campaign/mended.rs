@@ -46,3 +46,7 @@ pub(crate) const MENDED_JOINTS: [(u64, u32); 3] = [(1778, 2), (3125, 3), (3416, 
 
 /// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance.
 pub(crate) const MENDED_CROWDS: [(u64, u32); 3] = [(153, 3), (205, 3), (262, 3)];
+
+/// Of the generator of other units: where the foot passed from a face over an edge, rounding made an impact that took half the
+/// speed.
+pub(crate) const MENDED_UNITS: [(u64, u32); 1] = [(2028, 20)];

@@ -69,6 +69,12 @@ impl Trajectories {
         }
     }
 
+    /// Whether a sphere moves along a wall and approaches it by no more than rounding of its speed.
+    pub(super) fn grazes(&self, contact: &ContactState) -> bool {
+        let (kind, a, _) = contact.key;
+        kind == Kind::Wall && contact.v_n >= -BRUSH * self.trajectory(a).v.length()
+    }
+
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
     pub(crate) fn is_rounding_approach(&self, contact: &ContactState) -> bool {
         let (kind, a, b) = contact.key;

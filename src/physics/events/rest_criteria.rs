@@ -36,6 +36,10 @@ impl Mechanics {
             // an impact that a rest beside it takes back would come again and again, softer, until nothing is left of it
             return Verdict::Leave;
         }
+        if contact.a_n >= 0.0 && self.trajectories.grazes(contact) {
+            // an impact would take nothing along the normal, and of a wall that rubs a share of what slides along it
+            return Verdict::Leave;
+        }
         match classify(contact.v_n, contact.a_n < 0.0, &model.law) {
             Class::Collide => {}
             Class::Rest => return Verdict::Rest(RestReason::Slow),
