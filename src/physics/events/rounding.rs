@@ -10,7 +10,7 @@
 //! | [`CLOCK_ULPS`] | time of a flight | 1 ulp of the clock | events without end at one instant | real hops rest |
 //! | [`HOP`] | height of a hop | 1 ulp of the coordinates | bounces that coordinates hide go on | low hops rest |
 //! | [`SUM`] | velocities, accelerations | 1 ulp a summand | contacts that hold let go, and again | slow motion stops |
-//! | [`BRUSH`] | an approach between two that open | 2 ulp of the speed | two contacts take turns for ever | soft impacts lose nothing |
+//! | [`BRUSH`] | an approach between two that open, or along a wall | 2 ulp of the speed | contacts take turns for ever; edges rub | soft impacts lose nothing |
 //! | [`CHAIN`] | approaches after a long chain | 1000 ulp of the speed | a collapse is not seen to end | a chain ends early |
 //! | [`CLOSING`] | an approach that a look sees | 2 ulp of the speeds | three in a row push the middle one for ever | slow approaches are seen late |
 //! | [`LOST`] | an impact's change of speed | 10 ulp of the speed | loops count as chains | chains count as loops |
@@ -48,7 +48,7 @@ pub(crate) const HOP: f64 = 4.0 * f64::EPSILON;
 /// Below this share of what they are sums of, velocities and accelerations are rounding: 256 ulp.
 pub(crate) const SUM: f64 = 256.0 * f64::EPSILON;
 
-/// Approaches below this share of the speeds are rounding where the contact is about to open: 8 ulp.
+/// Approaches below this share of the speeds are rounding where the contact is about to open, or a wall is not pressed: 8 ulp.
 pub(crate) const BRUSH: f64 = 8.0 * f64::EPSILON;
 
 /// Normal velocities that a look sees are rounding below this share of the bodies' speeds: 64 ulp.
