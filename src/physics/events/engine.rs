@@ -20,8 +20,14 @@ use crate::physics::method::{Progress, Until};
 use crate::physics::model::{Model, Settings};
 use crate::physics::state::{Stall, State};
 
-/// Spheres beyond this many are kept in cells.
+/// Spheres up to this many look at all others: cells would not pay for their crossings.
 const FEW: usize = 16;
+
+/// Looks at a pair that a search may take without cells.
+const FEW_LOOKS: usize = 64;
+
+/// Cost of a look at a wall, in looks at a pair: those are taken four at a time.
+const WALL: usize = 8;
 
 /// Frames of dt in which nothing happens that are shown one by one: it takes minutes to pass them. A dt that asks for
 /// more, or one that the clock cannot tell from 0, leaves the frame open until something happens or the goal is reached.
@@ -89,7 +95,7 @@ impl<D: Detector> EventDriven<D> {
             mechanics: Mechanics::new(model, state),
         };
         let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = &mut engine;
-        if model.len() > FEW {
+        if model.len() > FEW && model.len() + WALL * model.faces.len() > FEW_LOOKS {
             schedule.lay_out(model, trajectories, rests);
         }
         engine.load(model, log);

@@ -111,31 +111,30 @@ impl<D: Detector> Search<'_, D> {
             let first = self.simd.look(query, records, slots, batches);
             if first.doubtful || !self.rests.is_empty() {
                 self.one_by_one(slots, batches, first.meet, plan);
+                self.refine(plan);
             } else if first.time < f64::INFINITY {
                 self.offer(first.with as usize, first.time, true, plan);
+                if is_far(first.c, query.r + records[first.with as usize].trajectory.r) {
+                    self.refine(plan);
+                }
             }
         }
-        if plan.kind == Kind::Pair && plan.contact < f64::INFINITY {
-            self.refine(plan);
-        }
     }
 
-    /// Finds the time of the planned pair anew where it comes from far: what finds four at a time cancels there.
-    #[inline(always)]
-    fn refine(&self, plan: &mut Plan) {
-        let other = plan.other as usize;
-        let (x, records) = (self.path.x - self.trajectories.path_from(other).x, &self.trajectories.records);
-        let reach = records[self.slot].trajectory.r + records[other].trajectory.r;
-        if is_far(x.length_squared() - reach * reach, reach) {
-            self.refine_far(x, reach, plan);
-        }
-    }
-
+    /// Finds the time of the planned pair anew where it comes from far: what finds four at a time cancels there. Out of the
+    /// way of a dense gas, in which nothing comes from far.
     #[cold]
     #[inline(never)]
-    fn refine_far(&self, x: DVec3, reach: f64, plan: &mut Plan) {
-        let v = self.path.v - self.trajectories.path_from(plan.other as usize).v;
-        if let Some(after) = straight_pair(x, v, reach) {
+    fn refine(&self, plan: &mut Plan) {
+        if plan.kind != Kind::Pair || plan.contact == f64::INFINITY {
+            return;
+        }
+        let (seen, records) = (self.trajectories.path_from(plan.other as usize), &self.trajectories.records);
+        let x = self.path.x - seen.x;
+        let reach = records[self.slot].trajectory.r + records[plan.other as usize].trajectory.r;
+        if is_far(x.length_squared() - reach * reach, reach)
+            && let Some(after) = straight_pair(x, self.path.v - seen.v, reach)
+        {
             plan.contact = self.trajectories.now + after;
         }
     }

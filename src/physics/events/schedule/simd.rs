@@ -41,6 +41,8 @@ pub(crate) struct Earliest {
     pub(crate) time: f64,
     /// Slot of the other sphere.
     pub(crate) with: u32,
+    /// The pair's c, m².
+    pub(crate) c: f64,
     /// A bit for each pair that meets.
     pub(crate) meet: u64,
     /// Whether some pair overlaps, or another meets at the same time: then the pairs are to be looked at one by one.
@@ -188,7 +190,7 @@ fn earliest(
     batches: &[PairBatch; BATCHES],
     times: impl Fn(&PairBatch) -> [f64; 4],
 ) -> Earliest {
-    let mut first = Earliest { time: f64::INFINITY, with: slots[0], meet, doubtful: false };
+    let mut first = Earliest { time: f64::INFINITY, with: slots[0], c: 0.0, meet, doubtful: false };
     let mut left = meet;
     loop {
         // 64 when none is left, which stands for the pair that never meets
@@ -216,7 +218,8 @@ fn earliest(
         let overlap = smaller(smaller(batch.c[0], batch.c[1]), smaller(batch.c[2], batch.c[3])) <= 0.0;
         first.doubtful |= tied || overlap;
         if least < first.time {
-            (first.time, first.with) = (least, others[equal.trailing_zeros() as usize % 4]);
+            let k = equal.trailing_zeros() as usize % 4;
+            (first.time, first.with, first.c) = (least, others[k], batch.c[k]);
         }
         if left == 0 {
             return first;
