@@ -44,7 +44,13 @@ impl Path {
     /// rejection before a quartic.
     #[inline]
     pub(super) fn stays_within(&self, way: f64, time: f64) -> bool {
-        way * (1.0 - 1e-9) > (self.v.length() + 0.5 * self.a.length() * time) * time
+        way > self.way_until(time)
+    }
+
+    /// A bound of the displacement until `time` (s), m, by the triangle inequality and with room for rounding.
+    #[inline]
+    pub(super) fn way_until(&self, time: f64) -> f64 {
+        (self.v.length() + 0.5 * self.a.length() * time) * time * (1.0 + 1e-9)
     }
 
     /// Least and largest coordinate along `axis` (any vector) over [from, to] (s), m times the length of the axis.

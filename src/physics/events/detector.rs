@@ -32,6 +32,9 @@ pub(crate) trait Detector: std::fmt::Debug + Clone {
     /// [`straight_pair`](crate::physics::contact_time::straight_pair) finds: then pairs are looked at four at a time.
     const STRAIGHT_PAIRS: bool;
 
+    /// Whether one look at a pair, by either of its spheres, is enough: it does not end where the other meets something else.
+    const ONE_LOOK: bool;
+
     /// A detector with these knobs.
     fn new(settings: Settings) -> Self;
     /// Takes other knobs; whether its answers change by that.

@@ -59,6 +59,8 @@ struct Frame {
     step: f64,
     /// Whether the next frame is under way.
     open: bool,
+    /// Whether the log tells what rests at the end of the last complete frame.
+    listed: bool,
     /// Where a frame with nothing in it ends at the earliest, s, where frames of dt would be too many to count.
     goal: f64,
     /// Where the frame under way ends if nothing happens before, s.
@@ -68,7 +70,7 @@ struct Frame {
 impl Frame {
     /// The clock of frames between two of them, at `time`, s.
     fn at(time: f64) -> Frame {
-        Frame { time, step: 0.0, open: false, goal: f64::NEG_INFINITY, end: f64::MAX }
+        Frame { time, step: 0.0, open: false, listed: true, goal: f64::NEG_INFINITY, end: f64::MAX }
     }
 
     /// Sets the end of the frame: `dt` (s) after its beginning, and so far at least that the clock moves on.
@@ -110,6 +112,17 @@ impl<D: Detector> EventDriven<D> {
             _ => f64::NEG_INFINITY,
         };
         self.frame.set_end(self.settings.dt);
+        let progress = self.go_on(model, log, until, work);
+        // a frame that is passed is read by nothing: every event ends one
+        if !self.frame.open && !self.frame.listed {
+            let Mechanics { trajectories, rests, .. } = &self.mechanics;
+            rests.list(model, trajectories, log, self.frame.time);
+            self.frame.listed = true;
+        }
+        progress
+    }
+
+    fn go_on(&mut self, model: &Model, log: &mut Log, until: Until, work: u64) -> Progress {
         for _ in 0..work {
             if !self.frame.open {
                 if matches!(until, Until::Time(t) if t <= self.frame.time) {
@@ -234,20 +247,19 @@ impl<D: Detector> EventDriven<D> {
     fn open_frame(&mut self, log: &mut Log) {
         self.frame.open = true;
         self.frame.set_end(self.settings.dt);
+        self.mechanics.rests.begin_frame(self.frame.time);
         self.mechanics.forget_past();
         log.contacts.clear();
         log.probes.clear();
         log.approaches.clear();
     }
 
-    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
-        let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+    fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
         let looked_at = std::mem::take(&mut self.schedule.evaluations);
         self.schedule.detector.report(self.frame.time, end, looked_at, log);
-        rests.list(model, trajectories, log, end);
-        self.frame = Frame { time: end, step: end - self.frame.time, open: false, ..self.frame };
+        self.frame = Frame { time: end, step: end - self.frame.time, open: false, listed: false, ..self.frame };
         log.tallies.frames += 1;
-        log.tallies.inexact_time = rests.curved_time(end);
+        log.tallies.inexact_time = self.mechanics.rests.curved_time(end);
         Turn::Frame
     }
 
@@ -264,11 +276,11 @@ impl<D: Detector> EventDriven<D> {
         }
         if !log.contacts.is_empty() && time > now && now > self.frame.time {
             schedule.put_back((time, slot));
-            return Ok(self.close_frame(model, log, now));
+            return Ok(self.close_frame(log, now));
         }
         if time > self.frame.end {
             schedule.put_back((time, slot));
-            return Ok(self.close_frame(model, log, self.frame.end));
+            return Ok(self.close_frame(log, self.frame.end));
         }
         impacts.instant.advance_clock(trajectories, time)?;
         schedule.prefetch(trajectories);
@@ -325,8 +337,9 @@ impl<D: Detector> EventDriven<D> {
     /// Predicts the spheres that an event has changed.
     fn predict(&mut self, model: &Model, changed: &Changed) {
         let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
-        for &i in changed.spheres() {
-            self.schedule.predict(model, trajectories, rests, trajectories.slot(i));
+        let spheres = changed.spheres();
+        for (place, &i) in spheres.iter().enumerate() {
+            self.schedule.predict_after(model, trajectories, rests, (trajectories.slot(i), &spheres[..place]));
         }
     }
 }

@@ -14,6 +14,7 @@ pub(crate) struct RootDetector;
 impl Detector for RootDetector {
     const PAIRS_FIRST: bool = true;
     const STRAIGHT_PAIRS: bool = true;
+    const ONE_LOOK: bool = true;
 
     fn new(_: Settings) -> RootDetector {
         RootDetector

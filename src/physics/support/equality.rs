@@ -46,13 +46,12 @@ pub fn restore_both(inverse_mass: &[f64], velocity: &[DVec3], rows: &[Row]) -> (
         return (bind_one(inverse_mass, &still, row).0, bind_one(inverse_mass, velocity, &level(row)).0);
     }
     let level: Short<Row> = rows.iter().map(level).collect();
-    match gram::Skyline::of_like_masses(inverse_mass, rows, true) {
-        Some(factor) => (factor.bind(inverse_mass, &still, rows).0, factor.bind(inverse_mass, velocity, &level).0),
-        None => {
-            let of = |free: &[DVec3], rows: &[Row]| bind_all(inverse_mass, free, rows, NEARLY_DEPENDENT).0;
-            (of(&still, rows), of(velocity, &level))
-        }
+    let mut factor = gram::Skyline::empty();
+    if factor.take(inverse_mass, rows, true) {
+        return (factor.bind(inverse_mass, &still, rows).0, factor.bind(inverse_mass, velocity, &level).0);
     }
+    let of = |free: &[DVec3], rows: &[Row]| bind_all(inverse_mass, free, rows, NEARLY_DEPENDENT).0;
+    (of(&still, rows), of(velocity, &level))
 }
 
 /// Solves as [`bind`] does for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.

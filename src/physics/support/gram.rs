@@ -39,7 +39,10 @@ pub(super) fn bind(
     rows: &[Row],
     leaves_out: bool,
 ) -> Option<(Vec<DVec3>, Vec<f64>)> {
-    let factor = Skyline::of_like_masses(inverse_mass, rows, leaves_out)?;
+    let mut factor = Skyline::empty();
+    if !factor.take(inverse_mass, rows, leaves_out) {
+        return None;
+    }
     let (u, multipliers) = factor.bind(inverse_mass, free, rows);
     let is_met = |&index: &usize| {
         let row = &rows[index];
@@ -74,11 +77,27 @@ pub(super) struct Skyline {
 }
 
 impl Skyline {
-    /// The factor of these rows; none where [`bind`] has no answer.
-    pub(super) fn of_like_masses(inverse_mass: &[f64], rows: &[Row], leaves_out: bool) -> Option<Skyline> {
+    /// The factor of no rows.
+    #[inline]
+    pub(super) fn empty() -> Skyline {
+        Skyline { held: SmallVec::new(), entries: SmallVec::new(), least: 1.0, left_out: SmallVec::new() }
+    }
+
+    /// Takes these rows into an empty factor, where it stands: it is too large to be handed about. False where [`bind`] has
+    /// no answer.
+    pub(super) fn take(&mut self, inverse_mass: &[f64], rows: &[Row], leaves_out: bool) -> bool {
         let (light, heavy) =
             inverse_mass.iter().fold((0.0, f64::INFINITY), |(most, least): (f64, f64), &w| (most.max(w), least.min(w)));
-        if light > LIKE_MASSES * heavy { None } else { Skyline::of(inverse_mass, rows, leaves_out) }
+        if light > LIKE_MASSES * heavy {
+            return false;
+        }
+        let mut firsts: SmallVec<[usize; FEW]> = smallvec![usize::MAX; inverse_mass.len()];
+        let mut append = |index: usize| self.append((inverse_mass, rows), index, leaves_out, &mut firsts);
+        if rows.len() <= FEW {
+            (0..rows.len()).all(&mut append)
+        } else {
+            walked(inverse_mass.len(), rows).into_iter().all(append)
+        }
     }
 
     /// Vectors u by body and multipliers λ by row, for the rows of the factor with any offsets.
@@ -105,66 +124,46 @@ impl Skyline {
         (u, multipliers)
     }
 
-    fn of(inverse_mass: &[f64], rows: &[Row], leaves_out: bool) -> Option<Skyline> {
-        let mut factor = Skyline {
-            held: SmallVec::with_capacity(rows.len()),
-            entries: SmallVec::with_capacity(rows.len() * (rows.len().min(FEW) + 1) / 2),
-            least: 1.0,
-            left_out: SmallVec::new(),
-        };
-        let mut firsts: SmallVec<[usize; FEW]> = smallvec![usize::MAX; inverse_mass.len()];
-        if rows.len() <= FEW {
-            for index in 0..rows.len() {
-                factor.append((inverse_mass, rows), index, leaves_out, &mut firsts)?;
-            }
-        } else {
-            for index in walked(inverse_mass.len(), rows) {
-                factor.append((inverse_mass, rows), index, leaves_out, &mut firsts)?;
-            }
-        }
-        Some(factor)
-    }
-
-    /// Appends a row; none if too little of it is new.
+    /// Appends a row; false if too little of it is new.
     fn append(
         &mut self,
         (inverse_mass, rows): (&[f64], &[Row]),
         index: usize,
         leaves_out: bool,
         firsts: &mut [usize],
-    ) -> Option<()> {
+    ) -> bool {
         let (row, place, start) = (&rows[index], self.held.len(), self.entries.len());
         let weight = inverse_mass[row.a] + row.b.map_or(0.0, |b| inverse_mass[b]);
         let length = (weight * row.normal.length_squared()).sqrt();
         let first = firsts[row.a].min(row.b.map_or(usize::MAX, |b| firsts[b])).min(place);
+        let count = place - first;
+        self.entries.resize(start + count + 1, 0.0);
+        let (before, own) = self.entries.split_at_mut(start);
         let mut new = 1.0;
-        for other in first..place {
-            let held = self.held[other];
+        for (k, held) in self.held[first..].iter().enumerate() {
             let coupling = coupling(inverse_mass, row, &rows[held.row]) / (length * held.length);
             let from = held.first.max(first);
-            let (above, own) = (
-                &self.entries[held.start + from - held.first..][..other - from],
-                &self.entries[start + from - first..],
-            );
-            let entry = (coupling - dot(above, own)) / self.entries[held.start + other - held.first];
+            let above = &before[held.start + from - held.first..=held.start + first + k - held.first];
+            let (&diagonal, above) = above.split_last().expect("a row ends with its diagonal");
+            let entry = (coupling - dot(above, &own[from - first..])) / diagonal;
             new -= entry * entry;
-            self.entries.push(entry);
+            own[k] = entry;
         }
         if new <= if leaves_out { LEFT_OUT } else { DEPENDS } {
             self.entries.truncate(start);
             self.left_out.push(index);
-            return Some(());
+            return true;
         }
         if !leaves_out && new < INDEPENDENT || new.is_nan() {
-            return None;
+            return false;
         }
         self.least = self.least.min(new);
-        self.entries.push(new.sqrt());
+        own[count] = new.sqrt();
         self.held.push(Held { row: index, length, first, start });
         for body in [Some(row.a), row.b].into_iter().flatten() {
             firsts[body] = firsts[body].min(place);
         }
-        Some(())
+        true
     }
 
     /// Solves A z = `right`, in place.
@@ -220,13 +219,44 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
+/// Which bodies share a row: those of body i stand in `list[starts[i]..starts[i + 1]]`.
+struct Neighbours {
+    starts: Vec<usize>,
+    list: Vec<usize>,
+}
+
+impl Neighbours {
+    fn new(bodies: usize, rows: &[Row]) -> Neighbours {
+        let pairs = || rows.iter().filter_map(|row| Some((row.a, row.b?)));
+        let mut starts = vec![0; bodies + 1];
+        pairs().for_each(|(a, b)| {
+            starts[a] += 1;
+            starts[b] += 1;
+        });
+        let mut total = 0;
+        for start in &mut starts {
+            total += *start;
+            *start = total;
+        }
+        // filled from the back, every start comes to where its list begins
+        let mut list = vec![0; total];
+        for (a, b) in rows.iter().rev().filter_map(|row| Some((row.a, row.b?))) {
+            for (one, other) in [(b, a), (a, b)] {
+                starts[one] -= 1;
+                list[starts[one]] = other;
+            }
+        }
+        Neighbours { starts, list }
+    }
+
+    fn of(&self, body: usize) -> &[usize] {
+        &self.list[self.starts[body]..self.starts[body + 1]]
+    }
+}
+
 /// The rows in the order in which a walk from neighbour to neighbour has met all their bodies.
 fn walked(bodies: usize, rows: &[Row]) -> Vec<usize> {
-    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); bodies];
-    for (a, b) in rows.iter().filter_map(|row| Some((row.a, row.b?))) {
-        neighbours[a].push(b);
-        neighbours[b].push(a);
-    }
+    let neighbours = Neighbours::new(bodies, rows);
     let mut place = vec![usize::MAX; bodies];
     let mut met: Vec<usize> = Vec::with_capacity(bodies);
     for start in 0..bodies {
@@ -240,22 +270,34 @@ fn walked(bodies: usize, rows: &[Row]) -> Vec<usize> {
         met.drain(from..).for_each(|body| place[body] = usize::MAX);
         walk(end, &neighbours, &mut place, &mut met);
     }
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    let key = |&index: &usize| {
-        let (a, b) = (place[rows[index].a], rows[index].b.map_or(0, |b| place[b]));
-        (a.max(b), a.min(b), index)
-    };
-    order.sort_unstable_by_key(key);
+    let last = |row: &Row| place[row.a].max(row.b.map_or(0, |b| place[b]));
+    let mut ends = vec![0; bodies];
+    rows.iter().for_each(|row| ends[last(row)] += 1);
+    let mut total = 0;
+    for end in &mut ends {
+        total += *end;
+        *end = total;
+    }
+    let (mut order, mut starts) = (vec![0; rows.len()], ends.clone());
+    for (index, row) in rows.iter().enumerate().rev() {
+        let start = &mut starts[last(row)];
+        *start -= 1;
+        order[*start] = index;
+    }
+    for (start, end) in starts.into_iter().zip(ends) {
+        // few rows end at one body
+        order[start..end].sort_by_key(|&index| place[rows[index].a].min(rows[index].b.map_or(0, |b| place[b])));
+    }
     order
 }
 
 /// Meets `start` and everything connected with it, nearest first.
-fn walk(start: usize, neighbours: &[Vec<usize>], place: &mut [usize], met: &mut Vec<usize>) {
+fn walk(start: usize, neighbours: &Neighbours, place: &mut [usize], met: &mut Vec<usize>) {
     let mut next = met.len();
     place[start] = next;
     met.push(start);
     while next < met.len() {
-        for &body in &neighbours[met[next]] {
+        for &body in neighbours.of(met[next]) {
             if place[body] == usize::MAX {
                 place[body] = met.len();
                 met.push(body);

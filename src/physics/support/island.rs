@@ -14,7 +14,7 @@ pub struct Island {
 /// The islands of contacts given as (body, other body or wall), in the order of their first contact.
 ///
 /// Cost O(c log c) in the contacts, whatever the number of bodies in the scene. The order depends on indices alone.
-pub fn islands(contacts: &[(usize, Option<usize>)]) -> Short<Island> {
+pub fn islands(contacts: &[(usize, Option<usize>)]) -> Vec<Island> {
     let bodies = touched(contacts);
     let at = |body: usize| bodies.partition_point(|&other| other < body);
     let mut parent: Short<usize> = (0..bodies.len()).collect();
@@ -25,10 +25,10 @@ pub fn islands(contacts: &[(usize, Option<usize>)]) -> Short<Island> {
     }
     if (1..parent.len()).all(|local| root(&mut parent, local) == 0) && !bodies.is_empty() {
         let contacts = (0..contacts.len()).collect();
-        return Short::from_iter([Island { bodies, contacts }]);
+        return vec![Island { bodies, contacts }];
     }
     let mut number: Short<usize> = Short::from_elem(usize::MAX, bodies.len());
-    let mut found: Short<Island> = Short::new();
+    let mut found = Vec::new();
     for (index, &(a, _)) in contacts.iter().enumerate() {
         let root = root(&mut parent, at(a));
         if number[root] == usize::MAX {

@@ -80,6 +80,8 @@ struct Part {
     passes: usize,
     /// By how much a row's rounding may exceed its own; empty: by nothing.
     slack: Vec<f64>,
+    /// Whether the answer is known to be right to rounding.
+    converged: bool,
 }
 
 impl Part {
@@ -102,13 +104,20 @@ impl Part {
             return Part::direct(problem, &swept.multipliers);
         }
         let u = problem.response(&swept.multipliers);
-        Part { u, multipliers: swept.multipliers, solver: Solver::GaussSeidel, passes: swept.sweeps, slack: Vec::new() }
+        Part {
+            u,
+            multipliers: swept.multipliers,
+            solver: Solver::GaussSeidel,
+            passes: swept.sweeps,
+            slack: Vec::new(),
+            converged: false,
+        }
     }
 
     /// The answer of one body on some walls.
     fn of_single(problem: &Problem) -> Part {
         let (multipliers, u, passes) = enumerate::solve(problem);
-        Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new() }
+        Part { u: vec![u], multipliers, solver: Solver::Enumeration, passes, slack: Vec::new(), converged: false }
     }
 
     /// The answer by pivoting, where that ends soon and leaves no more than rounding.
@@ -117,8 +126,8 @@ impl Part {
             return None; // closed forms
         }
         let (u, multipliers, passes) = pivoting::solve(problem, guess)?;
-        let part = Part { u, multipliers, solver: Solver::Pivoting, passes, slack: Vec::new() };
-        (part.worst(problem) <= 1.0).then_some(part)
+        let part = Part { u, multipliers, solver: Solver::Pivoting, passes, slack: Vec::new(), converged: false };
+        (part.worst(problem) <= 1.0).then_some(Part { converged: true, ..part })
     }
 
     /// The answer by the active set; where it does not come to an end, or leaves more than rounding, again with other ideas
@@ -127,7 +136,7 @@ impl Part {
         let of = |guess: &[f64], dependent: f64| {
             let found = active_set::solve(problem, guess, dependent);
             let (u, multipliers, slack) = (found.u, found.multipliers, found.slack);
-            Part { u, multipliers, solver: Solver::ActiveSet, passes: found.passes, slack }
+            Part { u, multipliers, solver: Solver::ActiveSet, passes: found.passes, slack, converged: false }
         };
         let mut best = of(guess, active_set::DEPENDENT);
         for dependent in active_set::OTHERWISE_DEPENDENT {
@@ -177,6 +186,7 @@ impl Part {
             solver: Solver::Enumeration,
             passes: 1,
             slack: Vec::new(),
+            converged: false,
         }
     }
 
@@ -184,7 +194,7 @@ impl Part {
     fn report(&self, problem: &Problem) -> (Report, Short<f64>) {
         let left = |row: usize| problem.residual(row, &self.u, self.multipliers[row]);
         let residual = (0..self.multipliers.len()).map(left).fold(0.0, f64::max);
-        let converged = self.worst(problem) <= 1.0;
+        let converged = self.converged || self.worst(problem) <= 1.0;
         let (contacts, solver, passes) = (self.multipliers.len(), self.solver, self.passes);
         let report = Report { contacts, solver, passes, residual, converged };
         let precision = self.precision();

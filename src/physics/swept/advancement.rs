@@ -42,6 +42,7 @@ pub(crate) struct ConservativeAdvancement {
 impl Detector for ConservativeAdvancement {
     const PAIRS_FIRST: bool = false;
     const STRAIGHT_PAIRS: bool = false;
+    const ONE_LOOK: bool = false;
 
     fn new(settings: Settings) -> ConservativeAdvancement {
         let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);

@@ -8,24 +8,18 @@
 //! below rounding, and reading the path costs next to nothing.
 //!
 //! Spheres outside the island see chord parabolas x₀ + v₀ s + a s²/2 with a = 2 (x_h − x₀ − v₀ h)/h², laid along the arc
-//! one after another: a chord departs from the path by |jerk| h³/40, which must stay below [`DEPARTURE`], so that contact
+//! one after another: a chord departs from the path by |jerk| h³/40, which must stay below [`DEPARTURE`](super::ends::DEPARTURE), so that contact
 //! times with other bodies are predicted as in flight.
 
 use glam::DVec3;
 
 use super::bodies::{Body, Closed};
+use super::ends::Ends;
 use super::equation::{ConstrainedMotion, Order};
 use super::hermite::{Hermite, cube_root, fall_below_zero};
 
 /// Error allowed to the path between the ends of an arc, in radii (or coordinates, if larger): some ulp.
 const TOLERANCE: f64 = 1e-15;
-
-/// How far a chord may be from the path, in radii, so that what meets it by the chord overlaps by no more than that; but
-/// no less than [`FINEST`].
-const DEPARTURE: f64 = 5e-13;
-
-/// Least departure of a chord from the path, relative to the coordinates: 16 ulp.
-const FINEST: f64 = 16.0 * f64::EPSILON;
 
 /// Length of the first arc, in units of the time in which the motion changes.
 const FIRST: f64 = 0.05;
@@ -39,6 +33,9 @@ const BRIEFEST: f64 = 1e-4;
 /// Length of the arc after [`BRIEFEST`], in units of the time in which the motion changes: it costs a quarter of a longer
 /// one. The classical method of order 4 is off by less than 1e-17 radii then.
 const BRIEF: f64 = 1e-3;
+
+/// Length of the arc of bodies that creep, in units of the time in which the motion changes: x is off by its cube.
+const CREEP: f64 = 1e-5;
 
 /// Share of a brief arc up to which a change is looked for.
 const SOON: f64 = 0.125;
@@ -82,13 +79,6 @@ pub(crate) struct Arc {
     order: Order,
 }
 
-/// The bodies at one end of an arc, and their accelerations, m/s².
-#[derive(Debug, Clone)]
-struct Ends {
-    bodies: Vec<Body>,
-    a: Vec<DVec3>,
-}
-
 impl Arc {
     /// The motion of bodies from now on, while the contacts that are `loaded` go on holding. The contacts are closed
     /// (v_n = 0), and `a` are the accelerations, m/s².
@@ -97,6 +87,20 @@ impl Arc {
         let start = Ends { bodies, a };
         let span = BRIEFEST * start.time_scale();
         Arc::briefest(&start, &motion, span, &loaded).unwrap_or_else(|| Arc::of(start.bodies, contacts, loaded, None))
+    }
+
+    /// The motion of bodies from now on with the accelerations `a` (m/s²) that they have now, for a moment after which their
+    /// contacts are solved again: where supports depend on each other to rounding, the equation of those that hold is none.
+    pub(crate) fn creeping(bodies: Vec<Body>, a: Vec<DVec3>, loaded: Vec<bool>) -> Arc {
+        let start = Ends { bodies, a };
+        let span = CREEP * start.time_scale();
+        let end = start.moved(span);
+        Arc { changes: true, ..Arc::between(start, end, span, (loaded, Order::Three)) }
+    }
+
+    /// Whether a contact changes as soon as the arc begins.
+    pub(crate) fn is_over_at_once(&self) -> bool {
+        self.changes && self.length <= 2.0 * OVERSHOOT * self.span
     }
 
     /// The arc that goes on from the end of this one.
@@ -116,8 +120,8 @@ impl Arc {
         }
         let motion = ConstrainedMotion::held_by(&self.start.bodies, contacts, &self.loaded);
         match self.order {
-            Order::Four => return motion.step_rk4(&self.start.bodies, time),
-            Order::Eight if time > BEGINNING * self.span => return motion.step_rkf8(&self.start.bodies, time),
+            Order::Four => return motion.step_rk4(self.start.moving(), time),
+            Order::Eight if time > BEGINNING * self.span => return motion.step_rkf8(self.start.moving(), time),
             Order::Three | Order::Eight => {}
         }
         let mut bodies = self.at(time.min(self.span));
@@ -134,7 +138,7 @@ impl Arc {
         let mut span = if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale };
         // The error falls with the sixth power, so that a second try nearly always does.
         for _ in 0..30 {
-            let bodies = motion.step_rkf8(&start.bodies, span);
+            let bodies = motion.step_rkf8(start.moving(), span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let mut arc = Arc::between(start.clone(), end, span, (loaded.clone(), Order::Eight));
             let growth = cube_root(arc.allowance(&motion).sqrt());
@@ -156,12 +160,7 @@ impl Arc {
 
     /// The briefest of arcs; none if a contact changes on the way.
     fn briefest(start: &Ends, motion: &ConstrainedMotion, span: f64, loaded: &[bool]) -> Option<Arc> {
-        let along = |(body, a): (&Body, &DVec3)| Body {
-            x: body.x + (body.v + *a * (0.5 * span)) * span,
-            v: body.v + *a * span,
-            ..*body
-        };
-        let ahead: Vec<Body> = start.bodies.iter().zip(&start.a).map(along).collect();
+        let ahead = start.moved(span).bodies;
         let (a, forces) = motion.accelerations(&ahead);
         let grown = |((body, from), to): ((&Body, &DVec3), &DVec3)| {
             let growth = (*to - *from) * span;
@@ -178,13 +177,13 @@ impl Arc {
     /// but not soon, the arc ends before: most of these arcs are interrupted long before, and when that is need not be
     /// found.
     fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
-        let bodies = motion.step_rk4(&start.bodies, span);
-        let end = Ends { a: motion.accelerations(&bodies).0, bodies };
-        let mut arc = Arc::between(start, end, span, (loaded, Order::Four));
-        let before = motion.marks(&arc.start.bodies, &arc.start.a);
-        let holds = |time: f64| motion.distance_to_change(&arc.at(time), &before) >= 0.0;
-        if !holds(span) {
-            if holds(SOON * span) {
+        let bodies = motion.step_rk4(start.moving(), span);
+        let (a, forces) = motion.accelerations(&bodies);
+        let before = motion.marks(&start.bodies, &start.a);
+        let holds = motion.margin(&bodies, (&a, &forces), &before) >= 0.0;
+        let mut arc = Arc::between(start, Ends { bodies, a }, span, (loaded, Order::Four));
+        if !holds {
+            if motion.distance_to_change(&arc.at(SOON * span), &before) >= 0.0 {
                 arc.length = SOON * span;
             } else {
                 arc.cut_short(motion, &[SOON]);
@@ -269,28 +268,6 @@ impl Arc {
             }
             good = look;
         }
-    }
-}
-
-impl Ends {
-    /// Time in which the bodies move, or begin to move, by about a radius, s.
-    fn time_scale(&self) -> f64 {
-        let radius = self.bodies.iter().map(|body| body.r).fold(f64::INFINITY, f64::min);
-        let speed = self.bodies.iter().map(|body| body.v.length()).fold(0.0, f64::max);
-        let pulls = self.bodies.iter().zip(&self.a).map(|(body, a)| body.applied.length().max(a.length()));
-        1.0 / (speed / radius + (pulls.fold(0.0, f64::max) / radius).sqrt())
-    }
-}
-
-impl Body {
-    /// What errors of the bodies' places are measured by, m.
-    fn size(&self) -> f64 {
-        self.r.max(self.x.abs().max_element())
-    }
-
-    /// How far a chord may be from its path, m.
-    fn departure(&self) -> f64 {
-        (DEPARTURE * self.r).max(FINEST * self.size())
     }
 }
 
@@ -436,7 +413,7 @@ mod tests {
                 for share in [0.25, 0.5, 2.0 / 3.0, 0.9] {
                     let s = share * h;
                     let chord = one.x + one.v * s + a * (0.5 * s * s);
-                    let real = motion.step_rkf8(&arc.start.bodies, from + s)[0].x;
+                    let real = motion.step_rkf8(arc.start.moving(), from + s)[0].x;
                     // 5e-13 of a radius of 0.5 m; and, of the arc, 1e-15 of coordinates below 1.3 m.
                     assert!(chord.distance(real) < 0.27e-12, "{:e}", chord.distance(real));
                     assert!(arc.at(from + s)[0].x.distance(real) < 2e-15);
@@ -463,7 +440,7 @@ mod tests {
             let motion = ConstrainedMotion::held_by(&arc.start.bodies, &contacts, &arc.loaded);
             for share in [1e-9, 1e-6, 0.99 * BEGINNING, 0.3, 1.0] {
                 let time = share * arc.span;
-                let (read, real) = (arc.real(time, &contacts)[0], motion.step_rkf8(&arc.start.bodies, time)[0]);
+                let (read, real) = (arc.real(time, &contacts)[0], motion.step_rkf8(arc.start.moving(), time)[0]);
                 // An ulp or two of places below 1.3 m and of speeds below 1 m/s; and what the lowest order leaves of v.
                 let unit = arc.start.bodies[0].r / arc.start.time_scale();
                 let grown = if arc.order == Order::Three { 1e-13 * unit * share * share } else { 0.0 };
@@ -485,9 +462,8 @@ mod tests {
         let corner = face.shape.corners()[2];
         let begin = vec![sphere(corner + DVec3::new(0.18, 0.4, -0.24), DVec3::ZERO)];
         let motion = ConstrainedMotion::held_by(&begin, &contacts, &loaded(&begin, &contacts));
-        let go = |parts: u32| {
-            (0..parts).fold(begin.clone(), |bodies, _| motion.step_rkf8(&bodies, 0.1 / f64::from(parts)))[0]
-        };
+        let step = |on: Vec<Body>, h: f64| motion.step_rkf8((&on, &motion.accelerations(&on).0), h);
+        let go = |parts: u32| (0..parts).fold(begin.clone(), |on, _| step(on, 0.1 / f64::from(parts)))[0];
         let (few, many) = (go(10), go(1000));
         // Each of a thousand steps rounds to 1e-16; the error of ten steps of order 8 is below that.
         assert!(few.x.distance(many.x) < 1e-13 && few.v.distance(many.v) < 1e-12, "{few:?} {many:?}");

@@ -75,19 +75,21 @@ impl<'a> ConstrainedMotion<'a> {
         bind(&self.inverse_mass, &applied, &self.rows(bodies, |_, curvature| curvature))
     }
 
-    /// The bodies `h` seconds later.
-    pub(crate) fn step_rkf8(&self, start: &[Body], h: f64) -> Vec<Body> {
-        self.stepped(start, h, &STAGES, &ORDER_8)
+    /// The bodies `h` seconds later, which accelerate by `a` (m/s²) now.
+    pub(crate) fn step_rkf8(&self, (start, a): (&[Body], &[DVec3]), h: f64) -> Vec<Body> {
+        self.stepped((start, a), h, &STAGES, &ORDER_8)
     }
 
-    /// The bodies `h` seconds later by the classical method of Runge and Kutta, for so small a step that its error of order
-    /// h⁵ is far below rounding.
-    pub(crate) fn step_rk4(&self, start: &[Body], h: f64) -> Vec<Body> {
-        self.stepped(start, h, &CLASSICAL, &ORDER_4)
+    /// The bodies `h` seconds later, which accelerate by `a` (m/s²) now, by the classical method of Runge and Kutta, for so
+    /// small a step that its error of order h⁵ is far below rounding.
+    pub(crate) fn step_rk4(&self, (start, a): (&[Body], &[DVec3]), h: f64) -> Vec<Body> {
+        self.stepped((start, a), h, &CLASSICAL, &ORDER_4)
     }
 
-    fn stepped(&self, start: &[Body], h: f64, stages: &[&[f64]], result: &[f64]) -> Vec<Body> {
-        let mut slopes: Vec<Vec<(DVec3, DVec3)>> = Vec::with_capacity(stages.len());
+    /// The bodies `h` seconds later by the weights of all stages but the first, which is the start itself.
+    fn stepped(&self, (start, a): (&[Body], &[DVec3]), h: f64, stages: &[&[f64]], result: &[f64]) -> Vec<Body> {
+        let mut slopes: Vec<Vec<(DVec3, DVec3)>> = Vec::with_capacity(result.len());
+        slopes.push(start.iter().zip(a).map(|(body, a)| (body.v, *a)).collect());
         for weights in stages {
             let at = weighted(start, h, weights, &slopes);
             let a = self.accelerations(&at).0;
@@ -209,15 +211,14 @@ fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3
     start.iter().enumerate().map(moved).collect()
 }
 
-/// Weights of the stages of the classical method, each over the stages before it.
-const CLASSICAL: [&[f64]; 4] = [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
+/// Weights of the stages of the classical method but the first, each over the stages before it.
+const CLASSICAL: [&[f64]; 3] = [&[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
 
 /// Weights of the result of the classical method.
 const ORDER_4: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-/// Weights of the stages of RKF 7(8), each over the stages before it.
-const STAGES: [&[f64]; 13] = [
-    &[],
+/// Weights of the stages of RKF 7(8) but the first, each over the stages before it.
+const STAGES: [&[f64]; 12] = [
     &[2.0 / 27.0],
     &[1.0 / 36.0, 1.0 / 12.0],
     &[1.0 / 24.0, 0.0, 1.0 / 8.0],

@@ -9,6 +9,7 @@ use crate::physics::model::Model;
 
 impl Rests {
     /// Begins a frame at `time`, s: loads are counted from then on.
+    #[inline]
     pub(crate) fn begin_frame(&mut self, time: f64) {
         self.frame_start = time;
         for held in self.held.values_mut() {
@@ -45,18 +46,9 @@ impl Rests {
         self.held.iter().filter_map(of).sum()
     }
 
-    /// Adds a row for every rest that goes on as the frame ends at `end`, s, with the impulse that its support has given in
+    /// Adds a row for every rest that goes on as the frame ended at `end`, s, with the impulse that its support has given in
     /// the frame.
-    #[inline]
-    pub(crate) fn list(&mut self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
-        // every impact of a gas ends a frame, and nothing rests in it
-        if !self.held.is_empty() {
-            self.list_held(model, trajectories, log, end);
-        }
-        self.begin_frame(end);
-    }
-
-    fn list_held(&self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
+    pub(crate) fn list(&self, model: &Model, trajectories: &Trajectories, log: &mut Log, end: f64) {
         let met = log.contacts.len();
         for (&key, held) in self.held.iter().filter(|(_, held)| held.announced) {
             let impulse = Load { since: held.load.since.max(self.frame_start), ..held.load }.given(end);

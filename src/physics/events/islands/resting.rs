@@ -132,15 +132,19 @@ pub(super) fn closed<'a>(model: &'a Model, contacts: &[IslandContact]) -> Vec<Cl
 }
 
 impl Curve {
-    /// The motion from now on of bodies with these accelerations (m/s²), whose contacts carry these forces (N).
+    /// The motion from now (s) on of bodies with these accelerations (m/s²), whose contacts carry these forces (N); for a
+    /// moment if they only creep.
     pub(super) fn new(
         model: &Model,
         (bodies, a): (Vec<Body>, Vec<DVec3>),
         (contacts, forces): (Vec<IslandContact>, &[f64]),
-        now: f64,
+        (now, creeps): (f64, bool),
     ) -> Curve {
         let loaded = forces.iter().map(|&force| force > 0.0).collect();
-        let arc = Shared::new(Arc::new(bodies, a, &closed(model, &contacts), loaded));
+        let arc = Shared::new(match creeps {
+            true => Arc::creeping(bodies, a, loaded),
+            false => Arc::new(bodies, a, &closed(model, &contacts), loaded),
+        });
         Curve { arc, contacts: contacts.into(), offset: 0.0, from: now, length: 0.0, changes: false }.chord()
     }
 
@@ -207,6 +211,8 @@ pub(crate) struct Rests {
     pub(super) past: Vec<Past>,
     /// When the frame under way began, s.
     pub(super) frame_start: f64,
+    /// Number of arcs in a row that were over at once.
+    pub(super) hurried: u32,
     /// Number of islands that move on a curve.
     curves: usize,
     /// Time since which that many islands move on a curve, s.

@@ -18,6 +18,9 @@ use crate::physics::support::{Fate, Short, islands};
 use crate::physics::wall::{Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::{part_ahead, part_end};
 
+/// Arcs in a row that are over at once, after which an island creeps for a moment: solving it again changes nothing.
+const HURRIED: u32 = 8;
+
 /// An island under way to be solved.
 struct Members {
     /// Indices of the island's spheres, ascending.
@@ -114,10 +117,14 @@ impl Mechanics {
         let island = self.rests.island(leader).expect("an end that is due is that of an island");
         let spheres = island.spheres.clone();
         if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
+            self.rests.hurried = 0;
             self.rests.remember_chord(&spheres, &curve, now);
             self.set_chord(&spheres, curve.next(model, now));
             return self.changed(spheres);
         }
+        // after a creep the next arc is tried as it should be
+        let over_at_once = island.curve.as_ref().is_some_and(|curve| curve.arc.is_over_at_once());
+        self.rests.hurried = if over_at_once { self.rests.hurried + 1 } else { self.rests.hurried.saturating_sub(1) };
         for &i in &spheres {
             self.advance(model, i);
         }
@@ -179,12 +186,12 @@ impl Mechanics {
         spheres.iter().for_each(|&i| keys.extend_from_slice(&self.rests.of[i]));
         keys.sort_unstable();
         keys.dedup();
-        let mut open: Short<Short<Key>> = Short::from_iter([keys]);
+        let mut open: Vec<Short<Key>> = vec![keys];
         while let Some(keys) = open.pop() {
-            for connected in self.groups(&keys) {
-                if let Some(left) = self.settle_island(model, log, &connected)? {
-                    open.push(left);
-                }
+            let groups = self.groups(&keys);
+            for group in &groups {
+                let connected: Short<Key> = group.iter().map(|&contact| keys[contact]).collect();
+                open.extend(self.settle_island(model, log, &connected)?);
             }
         }
         for &i in &spheres {
@@ -216,6 +223,10 @@ impl Mechanics {
             if held.iter().any(|&(other, _)| other == wall) {
                 continue;
             }
+            // the plane is never farther than the wall
+            if model.faces[wall].height(path.x).abs() - r > most {
+                continue;
+            }
             let at = touch(&model.faces[wall], path.x, r);
             let near = |(_, held): &(usize, Touch)| {
                 held.point.distance_squared(at.point) <= (SHARED_POINT * r) * (SHARED_POINT * r)
@@ -231,10 +242,10 @@ impl Mechanics {
         }
     }
 
-    /// The connected sets of some contacts.
-    fn groups(&self, keys: &[Key]) -> Short<Short<Key>> {
+    /// The connected sets of some contacts, by their places in the list.
+    fn groups(&self, keys: &[Key]) -> Vec<Short<usize>> {
         let links: Short<_> = keys.iter().map(|&(kind, a, b)| (a, (kind == Kind::Pair).then_some(b))).collect();
-        islands(&links).iter().map(|island| island.contacts.iter().map(|&c| keys[c]).collect()).collect()
+        islands(&links).into_iter().map(|island| island.contacts).collect()
     }
 
     /// Settles connected contacts; returns those that are left if some opened, for they may have fallen apart.
@@ -303,7 +314,8 @@ impl Mechanics {
             self.rests.hold_until(key, now + pause);
         }
         if curved {
-            let curve = Curve::new(model, (bodies, a), (contacts, &forces), now);
+            let creeps = self.rests.hurried >= HURRIED;
+            let curve = Curve::new(model, (bodies, a), (contacts, &forces), (now, creeps));
             self.set_chord(&spheres, curve.cut(pause.min(self.rubbing_time(keys) - now)));
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));

@@ -16,7 +16,19 @@ impl<D: Detector> Schedule<D> {
     /// Predicts the sphere at a slot afresh from the present on.
     #[inline(always)]
     pub(crate) fn predict(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, slot: usize) {
-        self.make_plan(model, trajectories, rests, slot);
+        self.predict_after(model, trajectories, rests, (slot, &[]));
+    }
+
+    /// Predicts the sphere at a slot afresh, after other spheres (ascending) whose motion has changed with its own.
+    #[inline(always)]
+    pub(crate) fn predict_after(
+        &mut self,
+        model: &Model,
+        trajectories: &mut Trajectories,
+        rests: &Rests,
+        (slot, done): (usize, &[usize]),
+    ) {
+        self.make_plan(model, trajectories, rests, (slot, done));
         self.enter(trajectories, rests, slot);
     }
 
@@ -24,7 +36,7 @@ impl<D: Detector> Schedule<D> {
     /// is known what comes next.
     #[inline(always)]
     pub(crate) fn predict_due(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, slot: usize) {
-        self.make_plan(model, trajectories, rests, slot);
+        self.make_plan(model, trajectories, rests, (slot, &[]));
         self.enter_due(trajectories, rests, slot);
     }
 
@@ -35,10 +47,16 @@ impl<D: Detector> Schedule<D> {
         }
     }
 
-    fn make_plan(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests, slot: usize) {
+    fn make_plan(
+        &mut self,
+        model: &Model,
+        trajectories: &mut Trajectories,
+        rests: &Rests,
+        (slot, done): (usize, &[usize]),
+    ) {
         self.catch(trajectories, slot);
         let Schedule { detector, cells, candidates, simd, .. } = self;
-        let search = Search::new(model, trajectories, rests, (detector, *simd), slot);
+        let search = Search::new(model, trajectories, rests, (detector, *simd), (slot, done));
         let mut plan = Plan::IDLE;
         let count = match cells {
             Some(cells) => search.in_cells(cells, trajectories.records[slot].cell, None, (candidates, &mut plan)),
@@ -62,7 +80,7 @@ impl<D: Detector> Schedule<D> {
         let mut plan = record.plan;
         record.cell = cells.cross(slot, record.cell, plan.exit, slots);
         let (cell, way) = (record.cell, plan.exit);
-        let search = Search::new(model, trajectories, rests, (detector, *simd), slot);
+        let search = Search::new(model, trajectories, rests, (detector, *simd), (slot, &[]));
         let count = search.in_cells(cells, cell, Some(way), (candidates, &mut plan));
         self.evaluations += count;
         self.wear.cross(count);
@@ -103,10 +121,12 @@ impl<'a, D: Detector> Search<'a, D> {
         trajectories: &'a Trajectories,
         rests: &'a Rests,
         (detector, simd): (&'a D, Simd),
-        slot: usize,
+        (slot, done): (usize, &'a [usize]),
     ) -> Search<'a, D> {
         let until = rests.end_of(trajectories.sphere(slot)).next_up();
-        Search { model, trajectories, rests, detector, simd, slot, path: trajectories.path_from(slot), until }
+        let path = trajectories.path_from(slot);
+        let way = if until < f64::INFINITY { path.way_until(until - trajectories.now) } else { f64::INFINITY };
+        Search { model, trajectories, rests, detector, simd, slot, done, path, until, way }
     }
 
     /// Looks at the spheres around the sphere's cell and at the walls near it, or only at those that came within reach when

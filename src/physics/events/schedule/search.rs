@@ -26,10 +26,14 @@ pub(super) struct Search<'a, D> {
     pub(super) simd: Simd,
     /// The sphere's slot.
     pub(super) slot: usize,
+    /// Spheres, ascending, that have looked at this one already since their motion and its own changed.
+    pub(super) done: &'a [usize],
     /// The sphere's path from now on.
     pub(super) path: Path,
     /// End of the sphere's current parabola, s; later contacts are not searched for.
     pub(super) until: f64,
+    /// Bound of the sphere's way until then, m; infinite if the parabola does not end.
+    pub(super) way: f64,
 }
 
 impl<D: Detector> Search<'_, D> {
@@ -54,6 +58,9 @@ impl<D: Detector> Search<'_, D> {
                 continue;
             }
             count += 1;
+            if self.model.faces[wall].height(self.path.x).abs() - r > self.way {
+                continue;
+            }
             let span = self.span_for_wall(wall, plan);
             let Some(due) = self.detector.wall(&self.path, r, &self.model.faces[wall], span) else {
                 continue;
@@ -163,6 +170,9 @@ impl<D: Detector> Search<'_, D> {
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
         let (records, now) = (&self.trajectories.records, self.trajectories.now);
+        if D::ONE_LOOK && self.done.binary_search(&self.trajectories.sphere(other)).is_ok() {
+            return 1;
+        }
         let reach = records[self.slot].trajectory.r + records[other].trajectory.r;
         let seen = self.trajectories.path_from(other);
         let near = self.path.x.distance_squared(seen.x) <= TOUCHES * (reach * reach);
@@ -174,7 +184,9 @@ impl<D: Detector> Search<'_, D> {
             t.map(|after| Due { after, is_contact: true })
         } else {
             let before = D::pair_horizon(plan.contact, records[other].plan.contact);
-            self.detector.pair(&self.path, &seen, reach, self.span_before(before))
+            // beyond the end of its island's parabola the other is looked at anew, and looks for this one
+            let end = self.rests.end_of(self.trajectories.sphere(other)).next_up();
+            self.detector.pair(&self.path, &seen, reach, self.span_before(before.min(end)))
         };
         let Some(due) = found else { return 1 };
         self.offer(other, now + due.after, due.is_contact, plan)
