@@ -109,7 +109,7 @@ fn write(
     results.figure(|| marks::figure(exam, scene, other.as_deref(), marked))?;
     let mut text = marks::report(exam, scene, other.as_deref(), marked);
     if !arguments.dt.is_empty() {
-        text = text + "\n" + &marks::order(&arguments.dt, marked);
+        text = text + "\n" + &marks::order(exam, &arguments.dt, marked);
     }
     results.report(&text)
 }

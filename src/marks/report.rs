@@ -191,15 +191,30 @@ fn at_length(wrong: WrongImpact) -> String {
     format!("{} at {} s is {}{by}", bodies(wrong.key), format::time(wrong.time), kind(wrong.wrong))
 }
 
-/// The order at which the errors of one program fall with its steps (s), a line.
-pub fn order(steps: &[f64], marked: &[Marked]) -> String {
-    let errors = marked.iter().map(|marked| marked.mark.as_ref().map_or(f64::NAN, |mark| mark.error.0));
+/// The order at which the errors of one program fall with its steps (s), a line: of the errors up to where the first file ends, or is a
+/// radius off, since beyond that no error depends on a step.
+pub fn order(exam: &Exam, steps: &[f64], marked: &[Marked]) -> String {
+    let marks = || marked.iter().filter_map(|marked| marked.mark.as_ref().ok());
+    let parted = marks().flat_map(|mark| mark.series.points().iter().filter(|point| point.1 > exam.smallest_radius()));
+    let parted = parted.map(|point| point.0).fold(f64::INFINITY, f64::min);
+    let end = marks().map(|mark| mark.compared).fold(f64::INFINITY, f64::min);
+    let counts = |time: f64| time < parted && time <= end;
+    let error = |mark: &Mark| {
+        let counted = mark.series.points().iter().filter(|point| counts(point.0));
+        counted.map(|point| point.1).fold(0.0, f64::max)
+    };
+    let errors = marked.iter().map(|marked| marked.mark.as_ref().map_or(f64::NAN, error));
     match fit(steps.iter().copied().zip(errors)) {
         None => "Order of convergence: none can be fitted; wanted are two steps with errors above 0.\n".into(),
         Some(found) => {
             let Fit { margin, points, .. } = found;
             let certain = if margin.is_some() { " (95 %)" } else { "" };
-            format!("Order of convergence in dt: {found}{certain}, of {points} files.\n")
+            let until = if parted <= end {
+                format!("before {} s, where one is a radius off", format::time(parted))
+            } else {
+                format!("up to {} s", format::time(end))
+            };
+            format!("Order of convergence in dt: {found}{certain}, of {points} files {until}.\n")
         }
     }
 }
