@@ -132,7 +132,11 @@ impl Pursuit {
     }
 
     fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
-        self.shadow.follow(row)?;
+        let amid = self.shadow.is_amid(row);
+        self.shadow.follow(row).map_err(|ending| match ending.cause {
+            Cause::NoContact | Cause::OtherClass if amid => Ending { cause: Cause::AmidImpacts, ..ending },
+            _ => ending,
+        })?;
         self.events += 1;
         Ok(())
     }
@@ -152,7 +156,10 @@ impl Pursuit {
         let ending = doubt.filter(|doubt| !known(doubt)).or(ending);
         let t = Double::from(until);
         let mut growth = shadow.growth.clone();
-        shadow.bodies.iter().for_each(|body| growth.note(body.told.0, body.error(t)));
+        for body in &shadow.bodies {
+            let since = body.rises(body.course(t), until, &mut growth);
+            growth.note(since, body.error(t));
+        }
         let error = shadow.bodies.iter().map(|body| body.error(t)).fold(shadow.error, f64::max);
         let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
         let ending = ending.map(|ending| Ending { time: until, ..ending });

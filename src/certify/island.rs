@@ -110,6 +110,7 @@ impl Shadow {
         if island.contacts.len() > MOST_CONTACTS {
             return refused(&island.contacts, Cause::Support);
         }
+        self.looks += support::looks(island.contacts.len());
         let masses: Vec<Double> = bodies.iter().map(|&j| self.bodies[j].mass).collect();
         let v: Vec<Vector> = island.courses.iter().map(|course| course.v).collect();
         let pulls: Vec<Vector> = bodies.iter().map(|&j| self.bodies[j].pull).collect();

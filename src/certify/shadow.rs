@@ -231,7 +231,9 @@ impl Shadow {
         if error.is_nan() || error > body.radius.value() {
             return Err(Ending { time: body.now.t.value(), bodies: None, cause: Cause::Parted });
         }
-        self.growth.note(body.told.0, error);
+        let changed = state.t.min(body.now.t.value());
+        let since = body.rises(&body.before, changed, &mut self.growth);
+        self.growth.note(since, error);
         self.error = self.error.max(error);
         Ok(())
     }
