@@ -371,6 +371,27 @@ fn stacks_of_more_spheres_than_sets_of_contacts_can_be_tried_are_certified_to_th
 }
 
 #[test]
+fn what_ends_a_curved_motion_does_not_hide_how_far_it_is_off() {
+    // Five lines of balls with gaps between them lie in a box that holds the lowest at its ends: they slide over each other, until two of
+    // the lowest come together. Nothing happens before, so that no event compares them.
+    let lines =
+        (0..5_u8).flat_map(|line| (0..5 - line).map(move |k| (f64::from(line), f64::from(k), f64::from(4 - line))));
+    let ball = |(line, k, last): (f64, f64, f64)| {
+        sphere(dvec3((k - 0.5 * last) * 1.2, 0.5 + 0.8 * line, 0.0), DVec3::ZERO, 0.5)
+    };
+    let walls = room(dvec3(-2.9, 0.0, -2.0), dvec3(2.9, 7.0, 2.0));
+    let law = ContactLaw { tangential: 1.0, ..PAPER_LAW };
+    let scene = scene(G, law, walls, lines.map(ball).collect());
+    let errors = [0.1, 0.3, 1.0].map(|until| {
+        let certificate = certified(&scene, until);
+        assert_eq!(certificate.ending.is_some(), until == 1.0, "{certificate:?}");
+        assert!(certificate.until >= until.min(0.34), "{certificate:?}");
+        certificate.error
+    });
+    assert!(0.0 < errors[0] && errors[0] <= errors[1] && errors[1] <= errors[2] && errors[2] < 1e-12, "{errors:?}");
+}
+
+#[test]
 fn contacts_of_one_sphere_at_one_time_are_counted_where_their_order_is_that_of_exact() {
     // A ball between two that come from both sides at one time: whichever meets it first, they part otherwise.
     let ball = |x: f64, v: f64, mass: f64| Sphere { mass, ..sphere(DVec3::X * x, DVec3::X * v, 0.5) };
