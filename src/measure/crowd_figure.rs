@@ -266,7 +266,8 @@ fn legend(index: usize, crowd: &Crowd, crowds: &[Crowd], svg: &mut String) {
     let (done, begun) = crowd.finished;
     let mut words = name(crowd);
     if done < begun {
-        let _ = write!(words, ": {done} of {begun} came to the end, all to {} s", format::time(crowd.reached.0));
+        let _ =
+            write!(words, ": {done} of {begun} came to the end, all to at least {} s", format::time(crowd.reached.0));
     }
     let line = format!(r#"stroke="{color}" stroke-width="1.5" stroke-dasharray="{dash}" d="M{} {y}h32""#, x - 16.0);
     let _ = writeln!(svg, "<path {line}/>");

@@ -248,7 +248,7 @@ fn legend(rows: &[TradeRow], svg: &mut String) {
     }
     let stopped = rows.iter().filter(|row| row.note.stalled.is_some());
     if let Some(row) = stopped.clone().next() {
-        let y = line(&format!("{} that stopped early", stopped.count()), svg);
+        let y = line(&format!("{} stopped early", stopped.count()), svg);
         marker(&row.method, (left, y), Look::Dashed, "", svg);
     }
     let y = line("the front (filled)", svg);
