@@ -5,9 +5,13 @@ use glam::DVec3;
 use super::course::Course;
 use super::double::Double;
 use super::ending::Cause;
+use super::growth::Growth;
 use super::obstacle::{FACE, Part, Plate, Region};
 use super::vector::Vector;
 use crate::physics::Kind;
+
+/// The part of a way within which the shadow may come to its beginning later than `exact`.
+const SLIVER: f64 = 0.01;
 
 /// A wall that holds a sphere, by one of its parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,15 +106,34 @@ impl Body {
         self.held.iter().find(|held| held.wall == wall)
     }
 
+    /// Notes how the distance of where `exact` has it from where it is has grown on its way along `course` up to `t`, s: both are
+    /// parabolas of one acceleration, so that it is not above the line between its values at the ends. From when on anything may have
+    /// happened since, s: `t`, or the last event in `exact`, where the way is curved or no such parabola.
+    pub(super) fn rises(&self, course: &Course, t: f64, growth: &mut Growth) -> f64 {
+        let told = self.told.0;
+        let since = told.max(course.t.value());
+        // a sliver of a time lies between an event and the same event in the shadow; a whole flight does not
+        let is_this_way = course.t.value() <= told + SLIVER * (t - told);
+        if course.bend.is_some() || since >= t || !is_this_way {
+            return told;
+        }
+        let [first, last] = [since, t].map(|t| self.distance(course, t.into()));
+        growth.note(told, first);
+        growth.rise((since, first), (t, last));
+        t
+    }
+
+    /// Distance (m) of where `exact` has it at `t` (s), by its last event and the acceleration of `course`, from there.
+    fn distance(&self, course: &Course, t: Double) -> f64 {
+        let (time, x, v) = self.told;
+        let told = Course::parabola(time.into(), [x.into(), v.into(), course.a]);
+        (told.at(t) - course.at(t)).length().value()
+    }
+
     /// Distance (m) of where `exact` has it at `t` (s), by its last event and the shadow's acceleration, from where it is; 0
     /// if that event is later, or where the motion is curved: the distance then has been looked at.
     pub(super) fn error(&self, t: Double) -> f64 {
-        let (time, x, v) = self.told;
         let course = self.course(t);
-        if t < time.into() || course.bend.is_some() {
-            return 0.0;
-        }
-        let told = Course::parabola(time.into(), [x.into(), v.into(), course.a]);
-        (told.at(t) - course.at(t)).length().value()
+        if t < self.told.0.into() || course.bend.is_some() { 0.0 } else { self.distance(course, t) }
     }
 }

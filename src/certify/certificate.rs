@@ -90,7 +90,7 @@ fn follow(scene: &Scene, shadow: Shadow, go_on: &dyn Fn() -> bool) -> Option<(Ce
             Progress::Stalled(stall) => Err(Ending { time: stall.time, bodies: None, cause: Cause::Stalled }),
         };
     }
-    Some(pursuit.close(followed.err()))
+    Some(pursuit.close(followed.err(), &run))
 }
 
 /// A shadow run under way.
@@ -132,13 +132,17 @@ impl Pursuit {
     }
 
     fn follow(&mut self, row: &Contact) -> Result<(), Ending> {
-        self.shadow.follow(row)?;
+        let amid = self.shadow.is_amid(row);
+        self.shadow.follow(row).map_err(|ending| match ending.cause {
+            Cause::NoContact | Cause::OtherClass if amid => Ending { cause: Cause::AmidImpacts, ..ending },
+            _ => ending,
+        })?;
         self.events += 1;
         Ok(())
     }
 
     /// The certificate, up to where nothing speaks against it, and whether no sphere has had two events since then.
-    fn close(self, ending: Option<Ending>) -> (Certificate, bool) {
+    fn close(self, ending: Option<Ending>, run: &Simulation) -> (Certificate, bool) {
         let Pursuit { mut shadow, until, events } = self;
         let ending = ending.or_else(|| (0..shadow.let_go.len()).find_map(|_| shadow.still_holds(0).err()));
         let last = ending.as_ref().map_or(until, |ending| ending.time.min(until));
@@ -151,13 +155,16 @@ impl Pursuit {
         };
         let ending = doubt.filter(|doubt| !known(doubt)).or(ending);
         let t = Double::from(until);
+        let is_seen = shadow.look(run, until);
         let mut growth = shadow.growth.clone();
-        shadow.bodies.iter().for_each(|body| growth.note(body.told.0, body.error(t)));
+        for body in &shadow.bodies {
+            let since = body.rises(body.course(t), until, &mut growth);
+            growth.note(since, body.error(t));
+        }
         let error = shadow.bodies.iter().map(|body| body.error(t)).fold(shadow.error, f64::max);
         let places = shadow.bodies.iter().map(|body| body.course(t).at(t).components()).collect();
         let ending = ending.map(|ending| Ending { time: until, ..ending });
-        // where a motion is curved, it has been compared with that of `exact` at times told, and not at this one
-        let at_its_end = shadow.bodies.iter().all(|body| body.before.t <= t && body.course(t).bend.is_none());
+        let at_its_end = is_seen && shadow.bodies.iter().all(|body| body.before.t <= t);
         let (ties, looks) = (shadow.ties, shadow.looks);
         (Certificate { until, error, ending, events, ties, looks, growth, places }, at_its_end)
     }

@@ -27,13 +27,16 @@ pub enum Cause {
     Pressed,
     /// Contacts of one sphere at one time: their order is no fact.
     Simultaneous,
+    /// The shadow finds another contact, or another class, amid impacts of one instant: what comes of them depends on their order,
+    /// which is no fact.
+    AmidImpacts,
     /// The contacts of one sphere come in another order.
     OtherOrder,
     /// Rest on a sphere, an edge or a corner of which rounding decides what holds.
     CurvedRest,
     /// A sphere that slides on a wall comes to its edge, and rounding decides whether over it.
     RollsOver,
-    /// Too many contacts hold spheres that lean on each other, or their forces have no solution.
+    /// Too many contacts hold spheres that lean on each other, or no forces are found that fit.
     Support,
     /// Nothing shows that these bodies do not touch.
     Touching,
@@ -53,6 +56,7 @@ impl Cause {
             Cause::OtherClass => "at the shadow run's approach speed the contact is of another class",
             Cause::Pressed => "it lets go there, and the shadow run finds it pressed",
             Cause::Simultaneous => "it comes at the same time as another contact of the same sphere",
+            Cause::AmidImpacts => "it comes amid impacts of one instant, whose order the law leaves open",
             Cause::OtherOrder => "in the shadow run contacts come in another order",
             Cause::CurvedRest => "what holds the sphere there, and for how long, is within rounding",
             Cause::RollsOver => "the sphere comes to an edge, and whether over it is within rounding",

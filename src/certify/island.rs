@@ -110,6 +110,7 @@ impl Shadow {
         if island.contacts.len() > MOST_CONTACTS {
             return refused(&island.contacts, Cause::Support);
         }
+        self.looks += 2 * support::looks(island.contacts.len()); // of velocities, and of accelerations
         let masses: Vec<Double> = bodies.iter().map(|&j| self.bodies[j].mass).collect();
         let v: Vec<Vector> = island.courses.iter().map(|course| course.v).collect();
         let pulls: Vec<Vector> = bodies.iter().map(|&j| self.bodies[j].pull).collect();
@@ -127,7 +128,7 @@ impl Shadow {
         island.pushes = kept.pushes;
         island.keep(&kept.closed);
         if let Some(turning) = island.turning([&v, &a], scales) {
-            self.looks += SERIES * island.contacts.len() as u64;
+            self.looks += SERIES * island.contacts.len() as u64 + support::looks(island.contacts.len());
             let motion = island.bend(v, &pulls, &masses).and_then(|series| {
                 let radius = bodies.iter().map(|&j| self.bodies[j].radius.value()).fold(f64::INFINITY, f64::min);
                 let length = series.length(radius, self.until - time)?;

@@ -23,6 +23,13 @@ impl Shadow {
         (one - two).abs() <= (one.abs() + two.abs()) * Double::from(SAME_SHADOW_TIME)
     }
 
+    /// Whether a sphere of a contact has come to another one at the same instant of `exact`.
+    pub(super) fn is_amid(&self, row: &Contact) -> bool {
+        let sides = [Some(row.a), (row.kind == Kind::Pair).then_some(row.b)];
+        let met = |i: usize| self.bodies[i].since > 0.0 && row.time <= self.bodies[i].since * (1.0 + SAME_TIME);
+        sides.into_iter().flatten().any(met)
+    }
+
     /// Whether a contact holds sphere `i`.
     pub(super) fn holds(&self, i: usize, (kind, b): (Kind, usize)) -> bool {
         match kind {

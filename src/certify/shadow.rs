@@ -14,7 +14,7 @@ use super::growth::Growth;
 use super::law;
 use super::obstacle::Plate;
 use super::vector::Vector;
-use crate::physics::{Class, Contact, Kind, State};
+use crate::physics::{Class, Contact, Kind, Simulation, State};
 use crate::scene::{ContactLaw, Scene};
 
 /// All bodies of a scene, and how they have moved.
@@ -224,6 +224,24 @@ impl Shadow {
         Ok(())
     }
 
+    /// Holds curved motions against the last frame of `exact` as the certificate ends at `until`, s, where no event of it compares them:
+    /// where their pieces end, and there. False if the frame has none of that.
+    pub(super) fn look(&mut self, run: &Simulation, until: f64) -> bool {
+        let t = Double::from(until);
+        let curved: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].course(t).bend.is_some()).collect();
+        if curved.is_empty() || until < run.time() - run.step() {
+            return curved.is_empty();
+        }
+        let ends = std::mem::take(&mut self.checks).into_iter().filter(|check| check.0 <= until);
+        let last = curved.into_iter().map(|i| (until, i, self.bodies[i].course(t).at(t)));
+        for (time, i, place) in ends.chain(last).collect::<Vec<_>>() {
+            let error = (Vector::from(run.at(time).x[i]) - place).length().value();
+            self.growth.note(self.bodies[i].told.0.min(time), error);
+            self.error = self.error.max(error);
+        }
+        true
+    }
+
     /// Holds where `exact` has sphere `i` against its place in the shadow, m.
     pub(super) fn differs(&mut self, i: usize, state: &State, place: Vector) -> Result<(), Ending> {
         let body = &self.bodies[i];
@@ -231,7 +249,9 @@ impl Shadow {
         if error.is_nan() || error > body.radius.value() {
             return Err(Ending { time: body.now.t.value(), bodies: None, cause: Cause::Parted });
         }
-        self.growth.note(body.told.0, error);
+        let changed = state.t.min(body.now.t.value());
+        let since = body.rises(&body.before, changed, &mut self.growth);
+        self.growth.note(since, error);
         self.error = self.error.max(error);
         Ok(())
     }

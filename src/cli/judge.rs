@@ -104,12 +104,19 @@ fn write(
     marked: &[Marked],
 ) -> Result<(), Failure> {
     let other = arguments.against.as_ref().map(|word| printable::name(word));
-    let rows = marked.iter().map(|marked| marks::row(exam, other.is_none(), marked));
+    let order = marks::order(exam, &arguments.dt, marked);
+    let fit = order.map(|order| order.fit);
+    let rows = marked.iter().map(|marked| MarkRow {
+        order: fit.map(|fit| fit.order),
+        order_margin: fit.and_then(|fit| fit.margin),
+        ..marks::row(exam, other.is_none(), marked)
+    });
     results.table::<MarkRow>(Format::JsonLines, rows)?;
     results.figure(|| marks::figure(exam, scene, other.as_deref(), marked))?;
     let mut text = marks::report(exam, scene, other.as_deref(), marked);
     if !arguments.dt.is_empty() {
-        text = text + "\n" + &marks::order(&arguments.dt, marked);
+        let none = || "Order of convergence: none can be fitted; wanted are two steps with errors above 0.".into();
+        text = text + "\n" + &order.map_or_else(none, |order| order.to_string()) + "\n";
     }
     results.report(&text)
 }

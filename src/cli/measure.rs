@@ -93,10 +93,21 @@ fn write(
 ) -> Result<(), Failure> {
     let (allowed, axes) = (&allowed(arguments)[..], Axes { x: arguments.x, y: arguments.y });
     let (machine, command) = (machine(), command());
-    results.table::<TradeNote>(Format::JsonLines, rows.iter().map(|row| TradeNote::of(row, &machine)))?;
+    let options = options(arguments);
+    let notes = rows.iter().zip(measure::alike(rows));
+    let notes = notes.map(|(row, same)| TradeNote::of(row, same.map(|same| &rows[same]), &options, &machine));
+    results.table::<TradeNote>(Format::JsonLines, notes)?;
     results.table::<TradeRow>(Format::Csv, rows)?;
     results.figure(|| measure::figure(rows, allowed, axes, &format!("{command}; {machine}")))?;
     results.report(&measure::report(rows, allowed, yardsticks, axes))
+}
+
+/// The options that change the figures of a setting, as the command that repeats it needs them.
+fn options(arguments: &Measure) -> String {
+    let timeout = arguments.timeout.map(|timeout| format!(" --timeout {timeout:?}")).unwrap_or_default();
+    let error =
+        if arguments.error == measure::ASKED { String::new() } else { format!(" --error {:e}", arguments.error) };
+    timeout + &error
 }
 
 /// The rows of all files, each with its place.

@@ -73,6 +73,10 @@ pub struct MarkRow {
     pub mistake: Option<String>,
     /// In how many cases the mistake was seen, and of how many.
     pub mistake_seen: Option<[u64; 2]>,
+    /// Order at which the errors of all the files fall with their steps; none without steps.
+    pub order: Option<f64>,
+    /// Half width of the interval that holds the order with 95 % certainty; none of two files.
+    pub order_margin: Option<f64>,
     /// Figures of a crowd beside those of many runs; empty if it is held against none.
     pub crowd: Vec<CrowdMark>,
     /// Times, s, and the largest errors of the rows around them, m.

@@ -88,6 +88,8 @@ pub struct TradeNote {
     /// The row.
     #[serde(flatten)]
     pub row: TradeRow,
+    /// The command of the first row that is the very same run, because a knob changes nothing; none if this row is the first.
+    pub same_as: Option<String>,
     /// The command that measures this setting again.
     pub command: String,
     /// Processor, cores, system and version of Carom.
@@ -95,13 +97,16 @@ pub struct TradeNote {
 }
 
 impl TradeNote {
-    /// A row measured on a machine.
-    pub fn of(row: &TradeRow, machine: &str) -> TradeNote {
-        let knob =
-            |name: &str, value: Option<f64>| value.map(|value| format!(" --{name} {value:e}")).unwrap_or_default();
-        let knobs = knob("dt", row.dt) + &knob("tolerances", row.tolerance);
-        let command = format!("carom measure {} --methods {}{knobs}", row.scene, row.method);
-        TradeNote { row: row.clone(), command, machine: machine.into() }
+    /// A row measured on a machine by a command with `options`, which is the same run as an earlier one.
+    pub fn of(row: &TradeRow, same_as: Option<&TradeRow>, options: &str, machine: &str) -> TradeNote {
+        let command = |row: &TradeRow| {
+            let knob =
+                |name: &str, value: Option<f64>| value.map(|value| format!(" --{name} {value:e}")).unwrap_or_default();
+            let knobs = knob("dt", row.dt) + &knob("tolerances", row.tolerance);
+            format!("carom measure {} --methods {}{knobs}{options}", row.scene, row.method)
+        };
+        let same_as = same_as.map(command);
+        TradeNote { row: row.clone(), same_as, command: command(row), machine: machine.into() }
     }
 }
 

@@ -107,9 +107,10 @@ impl Exam {
     pub fn new(scene: &Scene, until: f64, tolerance: Option<f64>, go_on: &dyn Fn() -> bool) -> Option<Exam> {
         let certificate = certify(scene, until, go_on)?;
         let bodies = Bodies::of(scene);
-        let smallest = bodies.radii.iter().copied().fold(f64::INFINITY, f64::min);
-        let horizon = certificate.within(FLOOR * tolerance.unwrap_or(ASKED * smallest));
-        Some(Exam { scene: scene.clone(), bodies, tolerance, until, horizon, certificate, norm: None })
+        let mut exam = Exam { scene: scene.clone(), bodies, tolerance, until, horizon: until, certificate, norm: None };
+        let asked = tolerance.unwrap_or(ASKED * exam.smallest_radius());
+        exam.horizon = exam.certificate.within(FLOOR * asked);
+        Some(exam)
     }
 
     /// The exam with figures of a crowd held against those of many runs.
@@ -120,6 +121,11 @@ impl Exam {
     /// Number of spheres that a file must have.
     pub fn spheres(&self) -> usize {
         self.bodies.radii.len()
+    }
+
+    /// The smallest radius, m.
+    pub(super) fn smallest_radius(&self) -> f64 {
+        self.bodies.radii.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Marks a trajectory against `exact`.

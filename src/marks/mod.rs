@@ -42,6 +42,6 @@ pub use mistake::{Mistake, Suspicion};
 pub use norm::{Beside, Norm, Normal};
 pub use observer::Deepest;
 pub use order::{Wrong, WrongImpact};
-pub use report::{order, report, row};
+pub use report::{Order, order, report, row};
 pub use series::Series;
 pub use standard::Source;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::crowd::{Crowd, ERRORS, Mean};
 use super::crowds::SceneCrowds;
-use super::figure::{COLORS, escape, marker};
+use super::figure::{COLORS, Look, escape, marker};
 use super::report::setting;
 use crate::export::FIGURES;
 use crate::format;
@@ -214,7 +214,8 @@ impl Plot<'_> {
                 format::significant(point.1.mean, 6),
                 format::digits(point.1.error, 1)
             );
-            marker(crowd.rung.method.name(), (point.0, range.up(point.1.mean)), self.joined, &tip, svg);
+            let look = if self.joined { Look::Filled } else { Look::Open };
+            marker(crowd.rung.method.name(), (point.0, range.up(point.1.mean)), look, &tip, svg);
         }
     }
 }
@@ -265,10 +266,11 @@ fn legend(index: usize, crowd: &Crowd, crowds: &[Crowd], svg: &mut String) {
     let (done, begun) = crowd.finished;
     let mut words = name(crowd);
     if done < begun {
-        let _ = write!(words, ": {done} of {begun} came to the end, all to {} s", format::time(crowd.reached.0));
+        let _ =
+            write!(words, ": {done} of {begun} came to the end, all to at least {} s", format::time(crowd.reached.0));
     }
     let line = format!(r#"stroke="{color}" stroke-width="1.5" stroke-dasharray="{dash}" d="M{} {y}h32""#, x - 16.0);
     let _ = writeln!(svg, "<path {line}/>");
-    marker(crowd.rung.method.name(), (x, y), true, "", svg);
+    marker(crowd.rung.method.name(), (x, y), Look::Filled, "", svg);
     let _ = writeln!(svg, r#"<text x="{}" y="{}" font-size="12">{}</text>"#, x + 24.0, y + 4.5, escape(&words));
 }

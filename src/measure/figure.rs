@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use super::alike::folded;
 use super::axes::{Axes, Error};
 use super::front::front;
 use super::scale::Scale;
@@ -81,6 +82,8 @@ pub fn figure(rows: &[TradeRow], allowed: &[Method], axes: Axes, about: &str) ->
 }
 
 fn panel(rows: &[TradeRow], (allowed, axes): (&[Method], Axes), svg: &mut String) {
+    let (rows, same): (Vec<TradeRow>, Vec<Option<String>>) = folded(rows).into_iter().unzip();
+    let rows = &rows[..];
     let points = || rows.iter().filter_map(|row| axes.point(row));
     let (x, y) = (Scale::around(points().map(|p| p.0)), Scale::around(points().map(|p| p.1).chain(floor(rows, axes))));
     let framed = Frame { plot: PLOT, axes, x, y };
@@ -93,7 +96,8 @@ fn panel(rows: &[TradeRow], (allowed, axes): (&[Method], Axes), svg: &mut String
     order.sort_by_key(|index| best.contains(index)); // the front last: nothing covers it
     for index in order {
         if let Some(place) = framed.point(&rows[index]) {
-            marker(&rows[index].method, place, best.contains(&index), &tip(&rows[index]), svg);
+            let look = if best.contains(&index) { Look::Filled } else { look(&rows[index]) };
+            marker(&rows[index].method, place, look, &tip(&rows[index], same[index].as_deref()), svg);
         }
     }
     legend(rows, svg);
@@ -184,12 +188,28 @@ fn steps(rows: &[TradeRow], best: &[usize], axes: &Frame, svg: &mut String) {
     let _ = writeln!(svg, r##"<path fill="none" stroke="#555555" stroke-width="1.5" d="{path}"/>"##);
 }
 
-/// The mark of a method, filled on the front; `tip` shows when the pointer rests on it.
-pub(super) fn marker(method: &str, (x, y): (f64, f64), filled: bool, tip: &str, svg: &mut String) {
+/// How a mark looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Look {
+    /// On the front.
+    Filled,
+    /// Beaten by others, or apart from them.
+    Open,
+    /// Of a run that stopped before the end.
+    Dashed,
+}
+
+fn look(row: &TradeRow) -> Look {
+    if row.note.stalled.is_some() { Look::Dashed } else { Look::Open }
+}
+
+/// The mark of a method; `tip` shows when the pointer rests on it.
+pub(super) fn marker(method: &str, (x, y): (f64, f64), look: Look, tip: &str, svg: &mut String) {
     let index = Method::from_name(method).and_then(|method| Method::ALL.iter().position(|other| *other == method));
     let index = index.unwrap_or(COLORS.len() - 1) % COLORS.len();
     let color = COLORS[index];
-    let fill = if filled { color } else { "#ffffff" };
+    let fill = if look == Look::Filled { color } else { "#ffffff" };
+    let dashes = if look == Look::Dashed { r#" stroke-dasharray="2 2""# } else { "" };
     let shape = match index {
         0 => "m-5-5h10v10h-10z",
         1 => "m0-6.5l6 11h-12z",
@@ -200,13 +220,15 @@ pub(super) fn marker(method: &str, (x, y): (f64, f64), filled: bool, tip: &str, 
     let title = if tip.is_empty() { String::new() } else { format!("<title>{}</title>", escape(tip)) };
     let _ = writeln!(
         svg,
-        r#"<path fill="{fill}" fill-opacity="0.9" stroke="{color}" stroke-width="1.4" d="M{x:.1} {y:.1}{shape}">{title}</path>"#
+        r#"<path fill="{fill}" fill-opacity="0.9" stroke="{color}" stroke-width="1.4"{dashes} d="M{x:.1} {y:.1}{shape}">{title}</path>"#
     );
 }
 
-fn tip(row: &TradeRow) -> String {
-    let note = if row.note.is_empty() { String::new() } else { format!(": {}", row.note) };
-    super::report::setting(&row.method, row.dt, row.tolerance) + &note
+fn tip(row: &TradeRow, same: Option<&str>) -> String {
+    let note = row.note.to_string();
+    let said: Vec<&str> = [same, Some(note.as_str())].into_iter().flatten().filter(|said| !said.is_empty()).collect();
+    let colon = if said.is_empty() { "" } else { ": " };
+    super::report::setting(&row.method, row.dt, row.tolerance) + colon + &said.join("; ")
 }
 
 /// A marker and a name for each method, at the right of the plot.
@@ -222,7 +244,12 @@ fn legend(rows: &[TradeRow], svg: &mut String) {
     names.dedup();
     for name in names {
         let y = line(name, svg);
-        marker(name, (left, y), false, "", svg);
+        marker(name, (left, y), Look::Open, "", svg);
+    }
+    let stopped = rows.iter().filter(|row| row.note.stalled.is_some());
+    if let Some(row) = stopped.clone().next() {
+        let y = line(&format!("{} stopped early", stopped.count()), svg);
+        marker(&row.method, (left, y), Look::Dashed, "", svg);
     }
     let y = line("the front (filled)", svg);
     let _ = writeln!(svg, r##"<path stroke="#555555" stroke-width="1.5" d="M{} {y}h16"/>"##, left - 8.0);

@@ -54,10 +54,12 @@
 //! | `observables` | what a crowd is seen to do, in a run or a file |
 //! | `crowd`, `crowds` | what means over many seeds say beyond the horizon; many runs, or parts joined |
 //! | `crowd_report`, `crowd_figure` | the same in words and as SVG |
+//! | `alike` | settings that are one and the same run |
 //! | `report`, `chart`, `figure`, `scale` | what was found, for a terminal and as SVG |
 //! | `verify` | known results of physics and mathematics, measured here |
 
 mod accuracy;
+mod alike;
 mod axes;
 mod chart;
 mod clock;
@@ -91,6 +93,7 @@ mod work;
 mod yardstick;
 
 pub use accuracy::{Choice, Miss, Tried, choose};
+pub use alike::alike;
 pub use axes::{Axes, Cost as CostAxis, Error as ErrorAxis};
 pub use clock::thread_cpu;
 pub use cost::{Cost, cost};

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::alike::folded;
 use super::axes::Axes;
 use super::chart::chart;
 use super::front::{cheapest, front};
@@ -24,13 +25,10 @@ pub fn report(rows: &[TradeRow], allowed: &[Method], yardsticks: &[Yardstick], a
 }
 
 fn section(rows: &[TradeRow], (allowed, axes): (&[Method], Axes), yardstick: Option<&Yardstick>) -> String {
-    let folded = fold(rows);
-    let kept: Vec<TradeRow> = folded.iter().map(|group| rows[group[0]].clone()).collect();
-    let alike: Vec<Vec<&TradeRow>> =
-        folded.iter().map(|group| group[1..].iter().map(|&row| &rows[row]).collect()).collect();
-    let rows = &kept[..];
+    let (rows, same): (Vec<TradeRow>, Vec<Option<String>>) = folded(rows).into_iter().unzip();
+    let rows = &rows[..];
     let best = front(rows, allowed, axes);
-    let mut text = heading(rows, yardstick) + "\n\n" + &table(rows, &alike, &best) + "\n";
+    let mut text = heading(rows, yardstick) + "\n\n" + &table(rows, &same, &best) + "\n";
     let chart = chart(rows, allowed, axes);
     if !chart.is_empty() {
         text += &chart;
@@ -61,14 +59,14 @@ fn heading(rows: &[TradeRow], yardstick: Option<&Yardstick>) -> String {
 const COLUMNS: &str = "  method dt   tol   error m delay s  common  energy depth  gaps   cpu/s   ±";
 
 /// A line for each row, `*` on the front; letters refer to the notes below.
-fn table(rows: &[TradeRow], alike: &[Vec<&TradeRow>], best: &[usize]) -> String {
+fn table(rows: &[TradeRow], same: &[Option<String>], best: &[usize]) -> String {
     let mut notes: Vec<String> = Vec::new();
     let mut text = String::from(COLUMNS) + "\n";
     for (index, row) in rows.iter().enumerate() {
         // Runs that stalled share a letter, whenever and why they did.
         let stalled = row.note.stalled.as_ref().map(|_| "stopped before the end: below");
-        let same = same_as(row, &alike[index]);
-        let phrases = stalled.into_iter().chain(row.note.doubts.iter().map(String::as_str)).chain(same.as_deref());
+        let phrases =
+            stalled.into_iter().chain(row.note.doubts.iter().map(String::as_str)).chain(same[index].as_deref());
         let letters: String = phrases.map(|phrase| letter(phrase, &mut notes)).collect();
         let mark = if best.contains(&index) { '*' } else { ' ' };
         text += format!("{mark} {} {letters}", cells(row)).trim_end();
@@ -152,38 +150,6 @@ fn price(rows: &[TradeRow], best: &[usize], yardstick: Option<&Yardstick>) -> St
         (count, _) => format!(";\n  {count} settings on the front cost less"),
     };
     format!("The yardstick, {name}, takes {} per simulated second{compared}.\n", format::duration(price))
-}
-
-/// The indices of rows that are one and the same but for a knob: the rows of one method whose every counted figure is
-/// equal.
-fn fold(rows: &[TradeRow]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (index, row) in rows.iter().enumerate() {
-        match groups.iter_mut().find(|group| is_same(&rows[group[0]], row)) {
-            Some(group) => group.push(index),
-            None => groups.push(vec![index]),
-        }
-    }
-    groups
-}
-
-fn is_same(a: &TradeRow, b: &TradeRow) -> bool {
-    let counted = |row: &TradeRow| (row.common_events, row.impacts, row.evaluations, row.events, row.frames);
-    let errors =
-        |row: &TradeRow| (row.until, row.position_error, row.impact_time_error, row.energy_error, row.deepest_degree);
-    (&a.scene, &a.method) == (&b.scene, &b.method) && counted(a) == counted(b) && errors(a) == errors(b)
-}
-
-/// Which settings a row stands for beside its own.
-fn same_as(row: &TradeRow, alike: &[&TradeRow]) -> Option<String> {
-    let one_step = alike.iter().all(|other| other.dt == row.dt);
-    let knob = |other: &TradeRow| {
-        let tolerance = other.tolerance.map(format::power).unwrap_or_default();
-        let dt = other.dt.filter(|_| !one_step).map(|dt| format!("dt {} ", format::power(dt))).unwrap_or_default();
-        dt + &tolerance
-    };
-    let list: Vec<String> = alike.iter().map(|other| knob(other).trim().to_string()).collect();
-    (!list.is_empty()).then(|| format!("the very same run as with {}", list.join(", ")))
 }
 
 fn found_orders(rows: &[TradeRow], axes: Axes) -> String {

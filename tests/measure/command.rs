@@ -300,6 +300,11 @@ fn other_axes_json_orders_and_failures_are_to_be_had() {
     let line: serde_json::Value = serde_json::from_str(json.lines().next().expect("a row")).expect("an object");
     assert_eq!(line["command"], "carom measure paper-0 --methods paper --dt 1e-1 --tolerances 1e-3", "{line}");
     assert!(line["frames"].as_u64().is_some_and(|frames| frames > 0) && line["machine"].is_string(), "{line}");
+    // What the table folds into one line says so here as well, and is one mark of the figure, as what stopped is another kind of mark.
+    let first = "carom measure paper-2 --methods paper --dt 1e-1 --tolerances 1e-5";
+    assert!(json.lines().all(|line| !line.contains("\"same_as\":\"") || line.contains("--methods")), "{json}");
+    assert!(json.contains("\"same_as\":null") && json.contains("\"same_as\":\"carom measure paper-"), "{json}");
+    assert!(json.contains(first) && svg.contains("the very same run as with") && svg.contains("stopped early"));
 }
 
 #[test]
@@ -308,4 +313,7 @@ fn a_setting_that_takes_too_long_is_given_up_and_listed() {
     let ran = carom(&grid).succeeds();
     assert!(ran.out.contains("Stopped: paper, dt 1e-8 s, tolerance 1e-3 at"), "{}", ran.out);
     assert!(ran.out.contains("time-out"), "{}", ran.out);
+    // The command that repeats a setting has what changes its figures.
+    let json = carom(&[&grid[..], &["--error", "1e-3", "--json", "-"]].concat()).succeeds().out;
+    assert!(json.contains("--dt 1e-8 --tolerances 1e-3 --timeout 0.2 --error 1e-3\""), "{json}");
 }
