@@ -34,10 +34,11 @@ pub(crate) const MENDED_STACKS: [(u64, u32); 3] = [(16, 3), (118, 2), (148, 2)];
 /// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity.
 pub(crate) const MENDED_FUNNELS: [(u64, u32); 5] = [(151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11)];
 
-/// Tubes: what just fits drifted into a wall, or was stopped by the rounding of the edges at the tube's end.
+/// Tubes: what just fits drifted into a wall, was stopped by the rounding of the edges at the tube's end, or grazed its two
+/// walls in turn at one instant.
 #[rustfmt::skip]
-pub(crate) const MENDED_TUBES: [(u64, u32); 14] = [
-    (257, 1), (2951, 20), (3226, 17), (3761, 20), (4370, 20), (5548, 12), (6641, 8), (6743, 18), (6753, 14), (6920, 13),
+pub(crate) const MENDED_TUBES: [(u64, u32); 15] = [
+    (222, 5), (257, 1), (2951, 20), (3226, 17), (3761, 20), (4370, 20), (5548, 12), (6641, 8), (6743, 18), (6753, 14), (6920, 13),
     (7479, 3), (7451, 15), (7573, 6), (7661, 8),
 ];
 

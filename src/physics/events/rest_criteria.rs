@@ -37,8 +37,10 @@ impl Mechanics {
             return Verdict::Leave;
         }
         if contact.a_n >= 0.0 && self.trajectories.grazes(contact) {
-            // an impact would take nothing along the normal, and of a wall that rubs a share of what slides along it
-            return Verdict::Leave;
+            // an impact would take nothing along the normal, and of a wall that rubs a share of what slides along it; what the
+            // wall opposite sends back at this instant again and again is held by both
+            let held = self.impacts.instant.is_stuck(contact.key);
+            return if held { Verdict::Rest(RestReason::Squeezed) } else { Verdict::Leave };
         }
         match classify(contact.v_n, contact.a_n < 0.0, &model.law) {
             Class::Collide => {}
