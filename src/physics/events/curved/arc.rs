@@ -8,8 +8,8 @@
 //! below rounding, and reading the path costs next to nothing.
 //!
 //! Spheres outside the island see chord parabolas x₀ + v₀ s + a s²/2 with a = 2 (x_h − x₀ − v₀ h)/h², laid along the arc
-//! one after another: a chord departs from the path by |jerk| h³/40, which must stay below [`DEPARTURE`](super::ends::DEPARTURE), so that contact
-//! times with other bodies are predicted as in flight.
+//! one after another: a chord departs from the path by |jerk| h³/40, which must stay below
+//! [`DEPARTURE`](super::ends::DEPARTURE), so that contact times with other bodies are predicted as in flight.
 
 use glam::DVec3;
 
