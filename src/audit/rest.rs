@@ -21,6 +21,7 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
     let t = frame.state.t;
     let released = frame.events.iter().filter(|row| row.class == Class::Release);
     let released: BTreeSet<Key> = released.map(Contact::key).collect();
+    let most = (0..model.len()).map(|i| model.acceleration(i).length()).fold(0.0, f64::max);
     let rests = |row: &&Contact| row.class == Class::Rest && row.time == t && !released.contains(&row.key());
     for row in frame.contacts.iter().filter(rests) {
         let (offset, reach, size) = measured(model, frame, row);
@@ -33,7 +34,7 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
         let v = |i: usize| frame.state.v[i];
         let other = if row.kind == Kind::Pair { v(row.b) } else { DVec3::ZERO };
         let opening = (v(row.a) - other).dot(offset / distance);
-        let mut slowest = slowest(model, settings, row, [v(row.a), other]);
+        let mut slowest = slowest(model, settings, row, ([v(row.a), other], most));
         if opening > 0.0 {
             // what carries nothing any longer opens until its gap shows: the speed that it has come to by then
             let pull = |i: usize| model.acceleration(i).length();
@@ -61,14 +62,19 @@ fn measured(model: &Model, frame: &Frame, row: &Contact) -> (DVec3, f64, f64) {
 }
 
 /// The normal speed that counts as rest, m/s. Event-driven methods: a share of the speeds, or of what the bodies would gain
-/// by falling their own size. `paper` and `moreau` answer in the next frame what they call resting now.
-fn slowest(model: &Model, settings: &Settings, row: &Contact, v: [DVec3; 2]) -> f64 {
+/// by falling their own size at `most`, m/s²: what nothing pulls may be pressed by what is pulled the most. `paper` and
+/// `moreau` answer in the next frame what they call resting now.
+fn slowest(model: &Model, settings: &Settings, row: &Contact, (v, most): ([DVec3; 2], f64)) -> f64 {
     let pull = |i: usize| (model.acceleration(i).length(), model.radii[i]);
     let (a, r) = pull(row.a);
     let (b, s) = if row.kind == Kind::Pair { pull(row.b) } else { (0.0, 0.0) };
-    let scale = v[0].length() + v[1].length() + ((a + b) * (r + s)).sqrt();
+    let speeds = v[0].length() + v[1].length();
+    let scale = speeds + ((a + b) * (r + s)).sqrt();
     match settings.method {
-        Method::Exact | Method::Swept => SHARE * scale,
+        Method::Exact | Method::Swept => {
+            let bodies = if row.kind == Kind::Pair { 2.0 } else { 1.0 };
+            SHARE * (speeds + (bodies * most * (r + s)).sqrt())
+        }
         Method::Paper => model.law.rest_speed + (a + b) * settings.dt + SHARE * scale,
         Method::Moreau => {
             let missed = settings.tolerance.min(1.0) * (r + s) / settings.dt;

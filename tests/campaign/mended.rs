@@ -2,13 +2,13 @@
 
 /// Those that take less than a second each as far as that.
 #[rustfmt::skip]
-pub(crate) const MENDED: [(u64, u32); 81] = [
+pub(crate) const MENDED: [(u64, u32); 83] = [
     (65, 20), (124, 20), (132, 20), (137, 20), (141, 20), (147, 20), (152, 20), (164, 20), (168, 20), (175, 20),
     (177, 20), (179, 20), (201, 20), (226, 20), (251, 20), (267, 20), (281, 20), (295, 20), (306, 20), (322, 20),
     (325, 20), (360, 20), (371, 20), (396, 20), (421, 20), (424, 20), (447, 20), (461, 20), (473, 20), (590, 20),
-    (656, 13), (679, 20), (782, 8), (896, 10), (996, 9), (2093, 14), (2098, 9), (2203, 19), (2464, 6), (2480, 5),
+    (656, 13), (679, 20), (782, 8), (896, 10), (996, 9), (1247, 20), (2093, 14), (2098, 9), (2203, 19), (2464, 6), (2480, 5),
     (2658, 11), (2751, 6), (2798, 9), (3361, 11), (4246, 15), (4267, 12), (4348, 13), (4960, 7), (5266, 7), (5459, 4),
-    (5921, 6), (7688, 18), (7726, 16), (8361, 8), (8635, 7), (8877, 12), (8925, 9), (9224, 10), (9314, 17), (9949, 4),
+    (5921, 6), (6176, 20), (7688, 18), (7726, 16), (8361, 8), (8635, 7), (8877, 12), (8925, 9), (9224, 10), (9314, 17), (9949, 4),
     (10167, 18), (10337, 13), (10941, 8), (11044, 11), (11163, 16), (11592, 12), (11817, 9), (12395, 9), (12923, 4), (13532, 9),
     (13632, 14), (13928, 9), (13947, 7), (14061, 5), (14129, 6), (14253, 12), (14636, 7), (14849, 17), (14909, 8), (14981, 10),
     (15190, 13),
@@ -34,19 +34,20 @@ pub(crate) const MENDED_STACKS: [(u64, u32); 3] = [(16, 3), (118, 2), (148, 2)];
 /// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity.
 pub(crate) const MENDED_FUNNELS: [(u64, u32); 5] = [(151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11)];
 
-/// Tubes: what just fits drifted into a wall, was stopped by the rounding of the edges at the tube's end, or grazed its two
-/// walls in turn at one instant.
+/// Tubes: what just fits drifted into a wall, was stopped by the rounding of the edges at the tube's end, grazed its two
+/// walls in turn at one instant, was struck before its walls held it, or went to and fro by less than coordinates tell.
 #[rustfmt::skip]
-pub(crate) const MENDED_TUBES: [(u64, u32); 15] = [
-    (222, 5), (257, 1), (2951, 20), (3226, 17), (3761, 20), (4370, 20), (5548, 12), (6641, 8), (6743, 18), (6753, 14), (6920, 13),
+pub(crate) const MENDED_TUBES: [(u64, u32); 17] = [
+    (222, 5), (257, 1), (2886, 20), (6584, 20), (2951, 20), (3226, 17), (3761, 20), (4370, 20), (5548, 12), (6641, 8), (6743, 18), (6753, 14), (6920, 13),
     (7479, 3), (7451, 15), (7573, 6), (7661, 8),
 ];
 
 /// Joints where the judge took the edge beside the foot for the closest point.
 pub(crate) const MENDED_JOINTS: [(u64, u32); 3] = [(1778, 2), (3125, 3), (3416, 3)];
 
-/// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance.
-pub(crate) const MENDED_CROWDS: [(u64, u32); 3] = [(153, 3), (205, 3), (262, 3)];
+/// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance, or passed through
+/// each other, where a plan that was made for another trajectory had been put off.
+pub(crate) const MENDED_CROWDS: [(u64, u32); 5] = [(153, 3), (205, 3), (262, 3), (3700, 4), (5115, 4)];
 
 /// Of the generator of other units: where the foot passed from a face over an edge, rounding made an impact that took half the
 /// speed.

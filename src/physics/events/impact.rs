@@ -34,7 +34,7 @@ impl Mechanics {
         let since = if key.0 == Kind::Pair { before.t.max(self.trajectories.trajectory(key.2).t) } else { before.t };
         let mut contact = self.advanced_contact(model, key);
         self.trajectories.restore_bounce_speed(model, &before, &mut contact);
-        if self.is_squeezed(model, &contact) {
+        if self.is_squeezed(model, &contact, since) {
             return Ok(Changed::Nothing);
         }
         match self.verdict(model, log, &contact, since) {

@@ -188,10 +188,11 @@ impl Settled {
             || turning(contact, relative(contact, &|body| self.a[body])).length() > self.noise(contact, bodies)
     }
 
-    /// Takes what rounding left of the velocities of an island that has come to rest: less than its weight would give it
-    /// before the clock can tell. Nothing turns then.
+    /// Takes what rounding left of the velocities of an island that has come to rest: less than what presses it would give
+    /// any of its bodies before the clock can tell. Nothing turns then.
     fn stop(&mut self, bodies: &mut [Body], tick: f64) {
-        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= tick * body.applied.length();
+        let pull = pull(bodies);
+        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= tick * pull;
         if bodies.iter().zip(&self.a).all(rests) {
             bodies.iter_mut().for_each(|body| body.v = DVec3::ZERO);
             self.curved = false;

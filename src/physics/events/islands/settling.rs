@@ -41,8 +41,11 @@ impl Mechanics {
         self.rests.dirty.push(i);
         for key in self.rests.of[i].clone() {
             let meeting = self.trajectories.contact_state(model, key);
-            if meeting.hops_within_rounding(self.rests.pressure(model, key)) || self.impacts.instant.has_collapsed(key)
-            {
+            let held = self.rests.kept(key);
+            // what squeezes a sphere it can't leave, whatever strikes it at this instant too
+            let squeezed = held.reason == RestReason::Squeezed && held.settles_at == self.trajectories.now;
+            let small = meeting.hops_within_rounding(self.rests.pressure(model, key));
+            if squeezed || small || self.impacts.instant.has_collapsed(key) {
                 continue;
             }
             if meeting.v_n < -model.law.rest_speed && meeting.v_n < -DRIVEN * self.trajectories.trajectory(i).v.length()

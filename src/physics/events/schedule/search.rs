@@ -9,7 +9,9 @@ use crate::physics::contact_time::{is_far, straight_pair};
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::islands::resting::Rests;
 use crate::physics::events::record::Plan;
+use crate::physics::events::rounding::BRUSH;
 use crate::physics::events::trajectories::Trajectories;
+use crate::physics::impact_law::pair_normal_velocity;
 use crate::physics::model::Model;
 use crate::physics::path::Path;
 
@@ -116,38 +118,17 @@ impl<D: Detector> Search<'_, D> {
             let (slots, later) = rest.split_at(rest.len().min(MOST));
             rest = later;
             let first = self.simd.look(query, records, slots, batches);
-            if first.doubtful || !self.rests.is_empty() {
+            let far = || is_far(first.c, query.r + records[first.with as usize].trajectory.r);
+            if first.doubtful || !self.rests.is_empty() || first.time < f64::INFINITY && far() {
                 self.one_by_one(slots, batches, first.meet, plan);
-                self.refine(plan);
             } else if first.time < f64::INFINITY {
                 self.offer(first.with as usize, first.time, true, plan);
-                if is_far(first.c, query.r + records[first.with as usize].trajectory.r) {
-                    self.refine(plan);
-                }
             }
         }
     }
 
-    /// Finds the time of the planned pair anew where it comes from far: what finds four at a time cancels there. Out of the
-    /// way of a dense gas, in which nothing comes from far.
-    #[cold]
-    #[inline(never)]
-    fn refine(&self, plan: &mut Plan) {
-        if plan.kind != Kind::Pair || plan.contact == f64::INFINITY {
-            return;
-        }
-        let (seen, records) = (self.trajectories.path_from(plan.other as usize), &self.trajectories.records);
-        let x = self.path.x - seen.x;
-        let reach = records[self.slot].trajectory.r + records[plan.other as usize].trajectory.r;
-        if is_far(x.length_squared() - reach * reach, reach)
-            && let Some(after) = straight_pair(x, self.path.v - seen.v, reach)
-        {
-            plan.contact = self.trajectories.now + after;
-        }
-    }
-
-    /// Looks at the pairs with a bit in `meet` one by one: one overlaps by rounding, some may rest, or several meet at the
-    /// same time.
+    /// Looks at the pairs with a bit in `meet` one by one: one overlaps by rounding, some may rest, several meet at the
+    /// same time, or the first comes from far, where what finds four at a time cancels.
     #[cold]
     #[inline(never)]
     fn one_by_one(&self, slots: &[u32], batches: &[PairBatch], mut meet: u64, plan: &mut Plan) {
@@ -157,8 +138,10 @@ impl<D: Detector> Search<'_, D> {
             let (batch, lane, other) = (&batches[k / 4], k % 4, slots[k] as usize);
             let (b, c) = (batch.b[lane], batch.c[lane]);
             let time = self.trajectories.now + c / (batch.discriminant[lane].sqrt() - b);
-            if c <= 0.0 {
-                // whether they approach is for the handler's own expression to say
+            let reach =
+                self.trajectories.records[self.slot].trajectory.r + self.trajectories.records[other].trajectory.r;
+            if c <= 0.0 || is_far(c, reach) {
+                // whether those that overlap approach is for the handler's own expression to say
                 self.pair(other, plan);
             } else if time <= self.trajectories.records[other].plan.contact && time < f64::INFINITY {
                 self.offer(other, time, true, plan);
@@ -189,7 +172,20 @@ impl<D: Detector> Search<'_, D> {
             self.detector.pair(&self.path, &seen, reach, self.span_before(before.min(end)))
         };
         let Some(due) = found else { return 1 };
+        if due.after == 0.0 && self.approaches_by_rounding(&seen) {
+            return 1;
+        }
         self.offer(other, now + due.after, due.is_contact, plan)
+    }
+
+    /// Whether the sphere and one on the path `seen`, which touch and accelerate alike, approach by rounding alone. What
+    /// lies between two others would be sent from the one to the other for ever, and nothing that holds all three would
+    /// take that little.
+    #[cold]
+    #[inline(never)]
+    fn approaches_by_rounding(&self, seen: &Path) -> bool {
+        let speeds = self.path.v.length() + seen.v.length();
+        self.path.a == seen.a && pair_normal_velocity(self.path.x - seen.x, self.path.v - seen.v) >= -BRUSH * speeds
     }
 
     /// Plans to meet the sphere at `other` at `time` (s) if nothing is planned before; returns 0 if the two rest on each
