@@ -38,6 +38,8 @@ pub mod cli;
 #[doc(hidden)]
 pub mod config;
 #[doc(hidden)]
+pub mod double;
+#[doc(hidden)]
 pub mod explain;
 pub mod export;
 #[doc(hidden)]

@@ -78,7 +78,7 @@ impl<W: Write> Teller<'_, W> {
             self.warn()?;
         }
         for event in simulation.take_events().iter().filter(|event| event.time <= self.scene.duration) {
-            self.impacts += u64::from(event.class == Class::Collide);
+            self.impacts = self.impacts.saturating_add(event.impact_count());
             writeln!(self.out, "{}", sentence(self.scene, event))?;
         }
         self.out.flush()
@@ -140,6 +140,10 @@ fn sentence(scene: &Scene, event: &Contact) -> String {
         Kind::Pair => sphere(scene, event.b),
     };
     match event.class {
+        Class::Collide if event.impacts > 1 => {
+            let (count, impulse) = (format::counted(event.impacts, "time"), format::spoken(event.impulse));
+            format!("At {time} seconds {a} hits {b} {count} in a long chain, impulse {impulse} newton seconds in all.")
+        }
         Class::Collide => {
             let (speed, impulse) = (format::spoken(event.approach_speed), format::spoken(event.impulse));
             format!("At {time} seconds {a} hits {b} at {speed} metres per second, impulse {impulse} newton seconds.")

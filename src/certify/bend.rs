@@ -7,10 +7,10 @@
 
 use std::iter::successors;
 
-use super::double::Double;
 use super::obstacle::Part;
 use super::support::{Prop, forces};
 use super::vector::Vector;
+use crate::double::Double;
 
 /// Coefficients of a series: t⁰ to t²⁷.
 const TERMS: usize = 28;

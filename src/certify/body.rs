@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::course::Course;
-use super::double::Double;
 use super::ending::Cause;
 use super::growth::Growth;
 use super::obstacle::{FACE, Part, Plate, Region};
 use super::vector::Vector;
+use crate::double::Double;
 use crate::physics::Kind;
 
 /// The part of a way within which the shadow may come to its beginning later than `exact`.

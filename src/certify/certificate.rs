@@ -1,10 +1,10 @@
 //! A run of `exact` and its shadow, side by side.
 
-use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::growth::Growth;
 use super::meeting::SAME_TIME;
 use super::shadow::Shadow;
+use crate::double::Double;
 use crate::physics::{Contact, Progress, Simulation, Until};
 use crate::scene::{Method, Scene, Settings};
 

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use super::double::Double;
 use super::vector::Vector;
+use crate::double::Double;
 
 /// A motion from one moment on.
 #[derive(Debug, Clone, PartialEq)]

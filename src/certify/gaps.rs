@@ -3,7 +3,6 @@
 use super::body::Held;
 use super::clear::{Shape, Way, doubt};
 use super::course::Course;
-use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::glance::{Glance, ROUNDING};
 use super::obstacle::Part;
@@ -12,6 +11,7 @@ use super::shadow::Shadow;
 use super::start::{AT_LOAD, Start, overlap};
 use super::support;
 use super::vector::Vector;
+use crate::double::Double;
 use crate::physics::Kind;
 
 /// Pairs of bodies that are looked at without asking whether to go on, at most: some seconds.

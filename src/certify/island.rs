@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 use super::bend::{self, Bodies, Series, Tie};
 use super::body::Held;
 use super::course::Course;
-use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::glance::Glance;
 use super::shadow::Shadow;
 use super::support::{self, MOST_CONTACTS, Prop, ROUNDING};
 use super::vector::Vector;
+use crate::double::Double;
 use crate::physics::Kind;
 
 /// As how many looks at pairs of bodies a contact in a series counts: it takes as long.

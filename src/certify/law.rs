@@ -1,7 +1,7 @@
 //! What an impact does to velocities, from docs/paper.md.
 
-use super::double::Double;
 use super::vector::Vector;
+use crate::double::Double;
 use crate::scene::ContactLaw;
 
 /// Velocity (m/s) after an impact with a wall: v_n becomes −e v_n, what is across the unit normal loses by the factor.

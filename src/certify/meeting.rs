@@ -1,7 +1,6 @@
 //! How bodies come to a contact that `exact` tells: when, past what else, and whether others touch at the same time.
 
 use super::course::Course;
-use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::obstacle::{Part, Region};
 use super::shadow::{Shadow, ending};
@@ -9,6 +8,7 @@ use super::start::{AT_EVENT, AT_LOAD, Start};
 use super::support::ROUNDING;
 use super::touching::touching;
 use super::vector::Vector;
+use crate::double::Double;
 use crate::physics::{Class, Contact, Kind};
 
 /// Part of a time that passes between events of one instant in `exact`: an ulp or two, of which this is some thirty.

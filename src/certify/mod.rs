@@ -36,7 +36,6 @@ mod body;
 mod certificate;
 mod clear;
 mod course;
-mod double;
 mod ending;
 mod gaps;
 mod glance;
@@ -53,6 +52,6 @@ mod support;
 mod touching;
 mod vector;
 
+pub use crate::double::Double;
 pub use certificate::{Certificate, certify, certify_within};
-pub use double::Double;
 pub use ending::{Cause, Ending};

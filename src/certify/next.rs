@@ -3,13 +3,13 @@
 
 use super::bend;
 use super::body::{Change, Due, Held};
-use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::island::{Island, Motion};
 use super::polynomial::{Fall, fall};
 use super::shadow::Shadow;
 use super::support::ROUNDING;
 use super::vector::Vector;
+use crate::double::Double;
 use crate::physics::Kind;
 
 /// Changes at one time, at most: a sphere goes over an edge once.

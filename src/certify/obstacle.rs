@@ -1,8 +1,8 @@
 //! What a sphere may meet: a wall, or another sphere. Closest points from the definition of a parallelogram, c + u s₁ + w
 //! s₂ with |u|, |w| ≤ ½, and nothing of the solvers.
 
-use super::double::Double;
 use super::vector::Vector;
+use crate::double::Double;
 use crate::scene::Wall;
 
 /// A wall.

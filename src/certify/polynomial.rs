@@ -1,6 +1,6 @@
 //! Where a polynomial of time falls below 0, and how long it stays above: the ends of rest, and of what follows it.
 
-use super::double::Double;
+use crate::double::Double;
 
 /// Part of the size of a polynomial's terms that stands for rounding in `f64`.
 const ROUNDING: f64 = 1e-14;

@@ -7,13 +7,13 @@ use glam::DVec3;
 use super::body::{Body, Due, Held};
 use super::clear::Shape;
 use super::course::Course;
-use super::double::Double;
 use super::ending::{Cause, Ending};
 use super::glance::Glance;
 use super::growth::Growth;
 use super::law;
 use super::obstacle::Plate;
 use super::vector::Vector;
+use crate::double::Double;
 use crate::physics::{Class, Contact, Kind, Simulation, State};
 use crate::scene::{ContactLaw, Scene};
 

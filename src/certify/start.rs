@@ -1,10 +1,10 @@
 //! How a motion begins that is in touch with a wall and at rest along its normal.
 
 use super::course::Course;
-use super::double::Double;
 use super::obstacle::Plate;
 use super::support;
 use super::vector::Vector;
+use crate::double::Double;
 
 /// Overlap at t = 0 that a scene may have and counts as touching, in radii.
 pub(super) const AT_LOAD: f64 = 1e-9;

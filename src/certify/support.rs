@@ -3,8 +3,8 @@
 //! w_b) and what curvature adds. w is the same for all sets of contacts that push and fit: of few contacts every set is tried, of
 //! more a search proposes one, and either way what is found is held against all three conditions.
 
-use super::double::Double;
 use super::vector::Vector;
+use crate::double::Double;
 
 /// Most contacts of which every set is tried: a thousand sets.
 const MOST_TRIED: usize = 10;

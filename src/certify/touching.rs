@@ -1,8 +1,8 @@
 //! When a sphere and an obstacle touch: Newton's iteration on the distance, or on its square.
 
-use super::double::Double;
 use super::obstacle::Part;
 use super::vector::Vector;
+use crate::double::Double;
 
 /// Steps of Newton's iteration after which there is nothing near: from 16 digits three suffice, a graze takes one per bit.
 const MOST_STEPS: u32 = 120;

@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::DVec3;
 
-use super::double::Double;
+use crate::double::Double;
 
 /// Three components.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -16,7 +16,7 @@ use super::signals::Signals;
 use super::target::{Target, refuse_shared};
 use crate::certify::Certificate;
 use crate::export::{EventRow, Format, Row, StateRow, Table};
-use crate::physics::{Class, Progress, Simulation, Stall, State, Tallies};
+use crate::physics::{Progress, Simulation, Stall, State, Tallies};
 use crate::scene;
 
 pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
@@ -44,6 +44,7 @@ pub(super) fn run(arguments: &Run, signals: &Signals) -> Result<(), Failure> {
         states: table::<StateRow>(arguments.states.as_ref())?,
         events: table::<EventRow>(arguments.events.as_ref())?,
         impacts: 0,
+        summed: false,
         signals,
         progress: progress::bar(STEPS as u64, "{bar:40} {percent:>3} %  {elapsed} elapsed, {eta} to go"),
     };
@@ -71,6 +72,8 @@ struct Recorder<'a> {
     states: Option<Table<Output>>,
     events: Option<Table<Output>>,
     impacts: u64,
+    /// Whether a row stands for many impacts.
+    summed: bool,
     signals: &'a Signals,
     progress: ProgressBar,
 }
@@ -112,7 +115,8 @@ impl Recorder<'_> {
         let events = self.simulation.take_events();
         self.jury.judge(&self.simulation, &events);
         for event in events.iter().filter(|event| event.time <= self.until) {
-            self.impacts += u64::from(event.class == Class::Collide);
+            self.impacts = self.impacts.saturating_add(event.impact_count());
+            self.summed |= event.impact_count() > 1;
             if let Some(table) = &mut self.events {
                 table.write(&EventRow::from(event))?;
             }
@@ -133,6 +137,7 @@ impl Recorder<'_> {
         let mut line = closing_line(&end, self.impacts, end.energy(self.simulation.model()), stall.as_ref());
         line.push_str(&self.jury.words());
         line.push_str(&certificate.as_ref().map(certified::words).unwrap_or_default());
+        let tells_events = self.events.is_some();
         for table in [self.states, self.events].into_iter().flatten() {
             table.finish()?.finish()?;
         }
@@ -143,6 +148,9 @@ impl Recorder<'_> {
         } else {
             let _ = writeln!(std::io::stderr(), "{line}"); // if it cannot be read, the exit code still tells
         }
+        if self.summed && tells_events {
+            note(SUMMED);
+        }
         unsolved(&self.simulation.tallies()).iter().for_each(|sentence| note(sentence));
         self.jury.sentences().iter().for_each(|sentence| note(sentence));
         certificate.iter().flat_map(certified::notes).for_each(|words| note(&words));
@@ -152,6 +160,10 @@ impl Recorder<'_> {
         if stall.is_some() || self.jury.condemns() { Err(Failure::Told) } else { Ok(()) }
     }
 }
+
+/// What must be said of events of which some are sums.
+const SUMMED: &str = "some rows of events stand for many impacts of a long chain at one place: their approach speeds and \
+                      impulses are sums";
 
 /// What must be said of frames whose contacts the solver left unsolved, if there are any.
 fn unsolved(tallies: &Tallies) -> Option<String> {

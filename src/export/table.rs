@@ -117,6 +117,7 @@ mod tests {
             impulse: 3.6,
             degree: -1e-17,
             class: Class::Collide,
+            impacts: 1,
         })
     }
 

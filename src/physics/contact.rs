@@ -54,12 +54,20 @@ pub struct Contact {
     pub degree: f64,
     /// What the impact law made of the contact.
     pub class: Class,
+    /// How many impacts the row stands for: 1, or those of a long chain at one place that are skipped together. The speeds
+    /// and the impulse are then the sums of theirs.
+    pub impacts: u64,
 }
 
 impl Contact {
     /// The two bodies of the contact.
     pub fn key(&self) -> Key {
         (self.kind, self.a, self.b)
+    }
+
+    /// Number of impacts that the row tells: 0 if it tells of something else.
+    pub fn impact_count(&self) -> u64 {
+        if self.class == Class::Collide { self.impacts } else { 0 }
     }
 }
 

@@ -42,6 +42,7 @@ impl FrameContact {
             impulse: 0.0,
             degree: touch.degree,
             class: Class::Leave,
+            impacts: 1,
         };
         FrameContact { contact, v_n, accelerations: [model.acceleration(a), a_b] }
     }

@@ -39,17 +39,17 @@ impl Log {
         }
     }
 
-    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case: it happens before a run can be
-    /// asked to).
+    /// Counts an event, and keeps it if asked to (what happens at load is kept in any case, up to a million rows: it happens
+    /// before a run can be asked to).
     #[inline(always)]
     pub(crate) fn event(&mut self, row: Contact) {
         match row.class {
-            Class::Collide => self.tallies.impacts += 1,
+            Class::Collide => self.tallies.impacts = self.tallies.impacts.saturating_add(row.impacts),
             Class::Rest => self.tallies.rests += 1,
             Class::Release => self.tallies.releases += 1,
             Class::Leave => return,
         }
-        if self.recording || self.tallies.frames == 0 {
+        if self.recording || self.tallies.frames == 0 && self.events.len() < MOST_ROWS {
             self.events.push(row);
         }
     }

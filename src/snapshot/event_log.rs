@@ -152,6 +152,7 @@ mod tests {
             impulse: 2.0,
             degree: 0.0,
             class: Class::Collide,
+            impacts: 1,
         }
     }
 

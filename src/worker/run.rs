@@ -344,7 +344,7 @@ impl Runner {
         if before < self.log.total() {
             // another method begins where a run does: what the one before made of that is forgotten
             self.log.cut(before);
-            self.ticks.cut(course.time(), course.impacts() - impacts.clone().count() as u64);
+            self.ticks.cut(course.time(), course.impacts() - impacts.clone().map(Contact::impact_count).sum::<u64>());
         }
         impacts.for_each(|event| self.ticks.add(event.time));
         events.iter().for_each(|event| self.log.add(event));

@@ -18,6 +18,7 @@ mod impact_law;
 mod keyframes;
 mod laws;
 mod long;
+mod long_chains;
 mod moreau;
 mod moreau_walls;
 #[path = "../support/random.rs"]

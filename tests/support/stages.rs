@@ -137,6 +137,7 @@ pub(crate) fn contact(kind: Kind, a: usize, b: usize, class: Class) -> Contact {
         impulse: 14.2038,
         degree: 9.8e-4,
         class,
+        impacts: 1,
     }
 }
 

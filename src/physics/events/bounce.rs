@@ -8,12 +8,13 @@ use super::contact_state::ContactState;
 use super::mechanics::Mechanics;
 use super::record::Trajectory;
 use super::rest_reason::RestReason;
-use super::rounding::{BRUSH, PULLED, SUM, TOUCHED_GAP};
+use super::rounding::{BRUSH, HOP, PULLED, SUM, TOUCHED_GAP};
 use super::rub::Rub;
 use super::trajectories::Trajectories;
 use crate::physics::contact::Kind;
 use crate::physics::impact_law::along;
 use crate::physics::model::Model;
+use crate::physics::overlap::touching;
 use crate::physics::path::Path;
 use crate::physics::wall::{Part, touch};
 
@@ -69,10 +70,14 @@ impl Trajectories {
         }
     }
 
-    /// Whether a sphere moves along a wall and approaches it by no more than rounding of its speed.
-    pub(super) fn grazes(&self, contact: &ContactState) -> bool {
+    /// Whether a sphere moves along a wall and approaches it by no more than rounding of its speed; of its place too, which
+    /// turns the normal of what has struck it, if it has moved so only since `since` (s) and has not left its place.
+    pub(super) fn grazes(&self, contact: &ContactState, since: f64) -> bool {
         let (kind, a, _) = contact.key;
-        kind == Kind::Wall && contact.v_n >= -BRUSH * self.trajectory(a).v.length()
+        let (speed, size) = (self.trajectory(a).v.length(), contact.size());
+        let struck_here = speed * (self.now - since) <= touching(contact.reach, size);
+        let turned = if struck_here { HOP * size / contact.reach } else { 0.0 };
+        kind == Kind::Wall && contact.v_n >= -(BRUSH + turned) * speed
     }
 
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.

@@ -82,6 +82,7 @@ impl ContactState {
             impulse,
             degree: -self.gap / self.reach,
             class,
+            impacts: 1,
         }
     }
 }

@@ -90,6 +90,7 @@ impl Mechanics {
         let row = contact.row(self.trajectories.now, Class::Collide, impulse, target);
         note(log, row);
         self.impacts.instant.count_impact(&self.trajectories, contact);
+        self.impacts.last.note(contact.key, self.trajectories.now);
         let changed = self.break_rests(model, log, contact.key)?;
         if target == 0.0 && contact.a_n < 0.0 {
             // from an ulp above the face it would take √(2 ulp/g) to fall
@@ -97,6 +98,12 @@ impl Mechanics {
             self.rests.add(model, &self.trajectories, &stopped, RestReason::Stopped, self.trajectories.now);
         }
         self.sum_up(model, contact);
+        if self.impacts.last.are_many()
+            && let Some(spheres) = self.skip_rounds(model, log)
+        {
+            spheres.iter().try_for_each(|&i| self.trajectories.check_range(i))?;
+            return Ok(Changed::Spheres(spheres));
+        }
         Ok(changed)
     }
 

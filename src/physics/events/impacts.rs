@@ -2,6 +2,7 @@
 
 use super::chattering::Chatter;
 use super::instant::Instant;
+use super::long_chain::LastImpacts;
 use crate::physics::model::Model;
 
 /// Memory that an entry of a map by contacts takes, bytes, with what is free beside it.
@@ -14,12 +15,14 @@ pub(crate) struct Impacts {
     pub(crate) instant: Instant,
     /// Small bounces of some contacts.
     pub(crate) chatter: Chatter,
+    /// The last impacts, which may repeat a round.
+    pub(super) last: LastImpacts,
 }
 
 impl Impacts {
     /// A memory without impacts.
     pub(crate) fn new(model: &Model) -> Impacts {
-        Impacts { instant: Instant::default(), chatter: Chatter::new(model) }
+        Impacts { instant: Instant::default(), chatter: Chatter::new(model), last: LastImpacts::default() }
     }
 
     /// Memory that it takes beside its own size, bytes, as near as the numbers of its entries tell.

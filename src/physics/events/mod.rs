@@ -14,6 +14,7 @@
 //! | `rounding` | every threshold that stands for rounding |
 //! | `bounce`, `bounce_series`, `rub` | corrections of a bounce; series of bounces in closed form |
 //! | `chattering`, `instant`, `impacts` | what impacts have led to: small bounces in a row, chains at one instant |
+//! | `long_chain`, `repeated_round` | a chain of impacts that repeats a round at one place: many rounds at once |
 //! | `squeezed` | spheres that just fit between walls |
 //! | `islands` | resting contacts, solved island by island: what holds, and how the spheres move on |
 //! | `curved` | islands without a parabola: the motion over edges, corners and spheres |
@@ -35,9 +36,11 @@ mod impacts;
 mod initial_contacts;
 mod instant;
 mod islands;
+mod long_chain;
 mod mechanics;
 mod plain_pair;
 mod record;
+mod repeated_round;
 mod rest_criteria;
 pub(super) mod rest_reason;
 pub(super) mod resumable;

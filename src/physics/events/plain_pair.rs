@@ -82,6 +82,7 @@ impl Mechanics {
         let share = self.exchange(model, &pair);
         let impulse = (target - pair.contact.v_n) / share;
         note(log, pair.contact.row(now, Class::Collide, impulse, target));
+        self.impacts.last.note(pair.contact.key, now);
         for slot in pair.slots {
             self.trajectories.check_range_at(slot)?;
         }
@@ -96,6 +97,7 @@ impl Mechanics {
         v_n < -model.law.rest_speed
             && !watched
             && impacts.instant.events <= LONG_CHAIN
+            && !impacts.last.are_many()
             && !impacts.chatter.may_be_endless(&self.trajectories, &pair.contact, pair.since)
     }
 

@@ -36,7 +36,7 @@ impl Mechanics {
             // an impact that a rest beside it takes back would come again and again, softer, until nothing is left of it
             return Verdict::Leave;
         }
-        if contact.a_n >= 0.0 && self.trajectories.grazes(contact) {
+        if contact.a_n >= 0.0 && self.trajectories.grazes(contact, since) {
             // an impact would take nothing along the normal, and of a wall that rubs a share of what slides along it; what the
             // wall opposite sends back at this instant again and again is held by both
             let held = self.impacts.instant.is_stuck(contact.key);
@@ -56,7 +56,8 @@ impl Mechanics {
             return Verdict::Rest(RestReason::Chatter);
         }
         // of a chain that collapses elastic contacts are a part too, as long as something in the scene is lossy
-        let lossy = model.law.restitution < 1.0 || model.law.wall_restitution < 1.0;
+        let law = &model.law;
+        let lossy = law.restitution < 1.0 || law.wall_restitution < 1.0 || law.tangential < 1.0;
         if lossy && impacts.instant.collapses(model, trajectories, contact) {
             log.tallies.collapses += 1;
             return Verdict::Rest(RestReason::Collapse);

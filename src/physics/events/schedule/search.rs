@@ -9,11 +9,12 @@ use crate::physics::contact_time::{is_far, straight_pair};
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::islands::resting::Rests;
 use crate::physics::events::record::Plan;
-use crate::physics::events::rounding::BRUSH;
+use crate::physics::events::rounding::{BRUSH, HOP};
 use crate::physics::events::trajectories::Trajectories;
-use crate::physics::impact_law::pair_normal_velocity;
+use crate::physics::impact_law::{normal_velocity, pair_normal_velocity};
 use crate::physics::model::Model;
 use crate::physics::path::Path;
+use crate::physics::wall::touch;
 
 /// Square of a distance over that of the sum of the radii up to which spheres may rest on each other: more than any
 /// rounding.
@@ -67,13 +68,27 @@ impl<D: Detector> Search<'_, D> {
             let Some(due) = self.detector.wall(&self.path, r, &self.model.faces[wall], span) else {
                 continue;
             };
-            let time = self.trajectories.now + due.after;
+            let time = self.trajectories.now + if self.is_there(wall, r) { 0.0 } else { due.after };
             if time < plan.contact || (time == plan.contact && wins_over(wall, plan)) {
                 (plan.contact, plan.kind, plan.other, plan.is_contact) =
                     (time, Kind::Wall, wall as u32, due.is_contact);
             }
         }
         count
+    }
+
+    /// Whether the sphere, of radius `r` (m), approaches a wall from no farther than its coordinates tell: it meets it now. It
+    /// would be sent there again and again without coming closer, and what else moves meanwhile would overlap it.
+    #[inline]
+    fn is_there(&self, wall: usize, r: f64) -> bool {
+        let (face, x) = (&self.model.faces[wall], self.path.x);
+        let least = HOP * x.abs().max_element().max(r);
+        let away = face.height(x).abs() - r;
+        away > -least && away <= least && {
+            let at = touch(face, x, r);
+            let v_n = normal_velocity(self.path.v, DVec3::ZERO, at.normal);
+            at.gap > 0.0 && at.gap <= least && v_n < -BRUSH * self.path.v.length()
+        }
     }
 
     /// Time up to which a wall is worth a look, s from now: walls come before pairs of the same time, and times that round

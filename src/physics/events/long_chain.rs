@@ -1,0 +1,234 @@
+//! Long chains of impacts at one place that repeat a round: recognised here, and skipped by `repeated_round`.
+//!
+//! A light ball between a heavy one and a wall, or in the wedge between the two, is struck to and fro while nothing moves:
+//! the clock may stand still, or go on by what rounding leaves of gaps. Each impact is computed by itself at first; when
+//! the last hundred were the same few in turn, as many of the rounds to come are skipped as go on like that.
+
+use glam::DVec3;
+
+use super::contact_state::ContactState;
+use super::impact::note;
+use super::mechanics::Mechanics;
+use super::repeated_round::{Bystander, Round, Skipped, Strike};
+use super::rounding::{BRUSH, CHAIN, HOP};
+use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::impact_law::separation_speed;
+use crate::physics::log::Log;
+use crate::physics::model::Model;
+use crate::physics::overlap::touching;
+
+/// Impacts that are compared: a chain is long if its last ones, so many, repeat a round.
+const COMPARED: usize = 128;
+
+/// Most impacts of a round.
+const MOST_IMPACTS: usize = 12;
+
+/// Most spheres of a round.
+const MOST_SPHERES: usize = 6;
+
+/// Share of its speed with which a round may drive a sphere into a wall that it rests on.
+const HELD: f64 = 1e-6;
+
+/// Fewest rounds that are skipped: shorter chains are told impact by impact.
+const FEWEST_ROUNDS: u64 = 64;
+
+/// The last impacts of a run, up to [`COMPARED`] of them.
+#[derive(Debug, Clone)]
+pub(super) struct LastImpacts {
+    keys: [Key; COMPARED],
+    count: usize,
+    /// Time of the first of them, s.
+    began: f64,
+}
+
+impl Default for LastImpacts {
+    fn default() -> LastImpacts {
+        LastImpacts { keys: [(Kind::Wall, 0, 0); COMPARED], count: 0, began: 0.0 }
+    }
+}
+
+impl LastImpacts {
+    /// Notes an impact at `now`, s.
+    #[inline(always)]
+    pub(super) fn note(&mut self, key: Key, now: f64) {
+        if self.count == 0 {
+            self.began = now;
+        }
+        if let Some(place) = self.keys.get_mut(self.count) {
+            *place = key;
+            self.count += 1;
+        }
+    }
+
+    /// Whether there are enough to be compared.
+    #[inline(always)]
+    pub(super) fn are_many(&self) -> bool {
+        self.count == COMPARED
+    }
+
+    /// The impacts of the round that these repeat, in the order in which they come next, and when the first of these was,
+    /// s; none if they repeat none. Begins anew.
+    fn take_round(&mut self) -> Option<(&[Key], f64)> {
+        self.count = 0;
+        let keys = &self.keys;
+        let repeats = |period: &usize| keys[..COMPARED - period] == keys[*period..];
+        let period = (2..=MOST_IMPACTS).find(repeats)?;
+        Some((&keys[COMPARED - period..], self.began))
+    }
+}
+
+/// The bodies of a round and how they touch.
+struct Chain {
+    /// The spheres that it strikes, ascending.
+    spheres: Vec<usize>,
+    /// Its contacts, in the order of its impacts.
+    contacts: Vec<ContactState>,
+}
+
+impl Mechanics {
+    /// Skips the rounds to come of a chain that has repeated one for long, and goes on like that; returns the spheres
+    /// whose motion that has changed, none of them if it does not.
+    #[cold]
+    pub(super) fn skip_rounds(&mut self, model: &Model, log: &mut Log) -> Option<Vec<usize>> {
+        let chain = self.chain(model)?;
+        let beside = self.bystanders(model, &chain);
+        let velocities: Vec<_> = chain.spheres.iter().map(|&i| self.trajectories.trajectory(i).v).collect();
+        let skipped = self.skip(model, &chain, beside, &velocities)?;
+        for (&i, v) in chain.spheres.iter().zip(&skipped.velocities) {
+            let x = self.trajectories.trajectory(i).x;
+            self.trajectories.rewrite(i, x, *v);
+            self.trajectories.mark_changed(i);
+            self.disturb(model, log, i);
+        }
+        for (contact, &approach_speed) in chain.contacts.iter().zip(&skipped.approaches) {
+            self.tell(model, log, contact, (approach_speed, skipped.rounds));
+        }
+        // what was struck last parts, up to the rounding of what is kept
+        self.ensure_separating(model, chain.contacts.last()?.key, 0.0);
+        Some(chain.spheres)
+    }
+
+    /// Skips rounds from these velocities (m/s) on. A wall beside the chain into which each round drives a sphere a little,
+    /// because the normals of the impacts are not quite level with it, stops that sphere right after.
+    fn skip(
+        &self,
+        model: &Model,
+        chain: &Chain,
+        mut beside: Vec<(f64, Bystander)>,
+        velocities: &[DVec3],
+    ) -> Option<Skipped> {
+        let mut strikes: Vec<Strike> = chain.contacts.iter().map(|contact| strike(model, chain, contact)).collect();
+        let bystanders: Vec<Bystander> = beside.iter().map(|&(_, bystander)| bystander).collect();
+        let met = Round { strikes: &strikes, bystanders: &bystanders, rounding: CHAIN }.met(velocities);
+        for met in met.iter().rev() {
+            let (most, bystander) = beside[met.bystander];
+            if met.share > most || bystander.b.is_some() {
+                return None;
+            }
+            strikes.insert(met.before, hold(model, chain, &bystander));
+        }
+        let is_met = |place: usize| met.iter().any(|met| met.bystander == place);
+        let mut place = 0..beside.len();
+        beside.retain(|_| place.next().is_some_and(|place| !is_met(place)));
+        let bystanders: Vec<Bystander> = beside.iter().map(|&(_, bystander)| bystander).collect();
+        let round = Round { strikes: &strikes, bystanders: &bystanders, rounding: CHAIN };
+        let mut skipped = round.skip(velocities, FEWEST_ROUNDS)?;
+        let mut place = 0..strikes.len();
+        skipped.approaches.retain(|_| place.next().is_some_and(|place| !strikes[place].stops));
+        Some(skipped)
+    }
+
+    /// The chain of the last impacts, its spheres brought to the present; none if they repeat no round, if something moved
+    /// meanwhile by more than rounding.
+    fn chain(&mut self, model: &Model) -> Option<Chain> {
+        let (keys, began) = self.impacts.last.take_round()?;
+        let (keys, lasted) = (keys.to_vec(), self.trajectories.now - began);
+        let both = keys.iter().flat_map(|&(kind, a, b)| [Some(a), (kind == Kind::Pair).then_some(b)]);
+        let mut spheres: Vec<usize> = both.flatten().collect();
+        spheres.sort_unstable();
+        spheres.dedup();
+        if spheres.len() > MOST_SPHERES || keys.iter().any(|&key| self.rests.holds(key)) {
+            return None;
+        }
+        let contacts: Vec<ContactState> = keys.iter().map(|&key| self.advanced_contact(model, key)).collect();
+        let stays = |contact: &ContactState| {
+            let slack = touching(contact.reach, contact.size());
+            let way = self.trajectories.speeds(contact.key) * lasted;
+            contact.gap.abs() <= slack && way <= COMPARED as f64 * slack
+        };
+        contacts.iter().all(stays).then_some(Chain { spheres, contacts })
+    }
+
+    /// Whatever touches the spheres of a chain beside its own contacts, and the share of their speed with which a round may
+    /// drive them into it and be stopped: into what they rest on, or graze.
+    fn bystanders(&self, model: &Model, chain: &Chain) -> Vec<(f64, Bystander)> {
+        let mut found = Vec::new();
+        let mut look = |key: Key| {
+            if chain.contacts.iter().any(|contact| contact.key == key) {
+                return;
+            }
+            let contact = self.trajectories.contact_geometry(model, key, self.trajectories.now);
+            if contact.gap > touching(contact.reach, contact.size()) {
+                return;
+            }
+            let place = |i: usize| chain.spheres.binary_search(&i);
+            let (kind, one, other) = key;
+            // the first is a sphere of the chain; where it is the other, the contact is turned round
+            let (a, partner, normal) = match place(one) {
+                Ok(a) => (a, other, contact.normal),
+                Err(_) => (place(other).expect("one of the two is struck"), one, -contact.normal),
+            };
+            let b = if kind == Kind::Pair { place(partner).ok() } else { None };
+            let moves = kind == Kind::Pair && b.is_none();
+            let velocity = if moves { self.trajectories.path(partner, self.trajectories.now).v } else { DVec3::ZERO };
+            let grazed = BRUSH + HOP * contact.size() / contact.reach;
+            let most = if kind == Kind::Pair {
+                0.0
+            } else if self.rests.holds(key) {
+                HELD
+            } else {
+                grazed
+            };
+            found.push((most, Bystander { normal, a, b, velocity }));
+        };
+        for &i in &chain.spheres {
+            (0..model.faces.len()).for_each(|wall| look((Kind::Wall, i, wall)));
+            let others = (0..model.len()).filter(|&j| j != i && (j > i || chain.spheres.binary_search(&j).is_err()));
+            others.for_each(|j| look((Kind::Pair, i.min(j), i.max(j))));
+        }
+        found
+    }
+
+    /// Tells the impacts of one contact that were skipped, so many, in one row: of all the sums of approach speeds and of
+    /// impulses.
+    fn tell(&self, model: &Model, log: &mut Log, contact: &ContactState, (approach_speed, count): (f64, u64)) {
+        let (kind, a, b) = contact.key;
+        let target = separation_speed(-approach_speed, Class::Collide, kind, &model.law);
+        let other = if kind == Kind::Pair { model.inverse_masses[b] } else { 0.0 };
+        let impulse = (target + approach_speed) / (model.inverse_masses[a] + other);
+        let summed = ContactState { v_n: -approach_speed, ..*contact };
+        let row = summed.row(self.trajectories.now, Class::Collide, impulse, target);
+        note(log, Contact { impacts: count, ..row });
+    }
+}
+
+/// A contact of a chain as an impact of its round.
+fn strike(model: &Model, chain: &Chain, contact: &ContactState) -> Strike {
+    let (kind, a, b) = contact.key;
+    let place = |i: usize| chain.spheres.binary_search(&i).expect("the spheres of all contacts are listed");
+    let law = &model.law;
+    let (b, other, restitution, tangential) = match kind {
+        Kind::Wall => (None, 0.0, law.wall_restitution, law.tangential),
+        Kind::Pair => (Some(place(b)), model.inverse_masses[b], law.restitution, 1.0),
+    };
+    let inverse_masses = [model.inverse_masses[a], other];
+    let slowest = law.rest_speed;
+    Strike { normal: contact.normal, a: place(a), b, inverse_masses, restitution, tangential, slowest, stops: false }
+}
+
+/// A resting contact with a wall as what stops a slow approach.
+fn hold(model: &Model, chain: &Chain, held: &Bystander) -> Strike {
+    let inverse_masses = [model.inverse_masses[chain.spheres[held.a]], 0.0];
+    let &Bystander { normal, a, b, .. } = held;
+    Strike { normal, a, b, inverse_masses, restitution: 0.0, tangential: 1.0, slowest: 0.0, stops: true }
+}

@@ -1,0 +1,282 @@
+//! A round of impacts that comes again and again at one place: many rounds at once.
+//!
+//! While nothing moves, an impact maps the velocities of its bodies linearly, and so does a round of impacts; n rounds are
+//! the n-th power of that map, found by squaring. So a chain of a billion impacts (a light ball between a heavy one and a
+//! wall: Galperin 2003) costs some thousand products, and a chain without end (inelastic collapse: McNamara, Young 1992)
+//! is followed to where nothing approaches by more than rounding. All is computed in numbers of 32 digits: a rounding
+//! that each round repeats would grow with their number.
+//!
+//! Rounds are skipped only as long as no approach, and nothing else that touches, changes by more than a factor of two
+//! from where the skip begins to its middle, its end, and the rounds that follow: in doubling steps, an approach that ends
+//! is met at each halving of what is left, and never passed over.
+
+use glam::DVec3;
+
+use crate::double::Double;
+
+/// Most doublings of a skip: 2⁶⁰ rounds are more than any chain can have that begins with numbers of 53 bits.
+const MOST_DOUBLINGS: usize = 60;
+
+/// Most skips in a row: each halves or doubles some approach, which rounding ends after fifty.
+const MOST_SKIPS: usize = 400;
+
+/// Rounds looked at beyond the end of each skip: a motion that comes back every few rounds shows there.
+const ROUNDS_AFTER: usize = 3;
+
+/// One impact of a round. Bodies are named by their places in the list of velocities.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Strike {
+    /// Direction in which the first body is pushed, about 1 long.
+    pub(super) normal: DVec3,
+    /// The first body, by its place.
+    pub(super) a: usize,
+    /// The other body, by its place; none: a wall.
+    pub(super) b: Option<usize>,
+    /// Inverse masses of both, 1/kg; 0: a wall.
+    pub(super) inverse_masses: [f64; 2],
+    /// Share of the approach speed with which the bodies part.
+    pub(super) restitution: f64,
+    /// Share of the tangential velocity that the impact leaves.
+    pub(super) tangential: f64,
+    /// Approach speed down to which it is an impact, m/s: beyond it, the contact rests.
+    pub(super) slowest: f64,
+    /// Whether it is no impact, but a wall that stops what grazes it.
+    pub(super) stops: bool,
+}
+
+/// A contact that touches without being struck: its bodies must not begin to approach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bystander {
+    /// Unit normal, towards the first body.
+    pub(super) normal: DVec3,
+    /// The first body, by its place.
+    pub(super) a: usize,
+    /// The other body, by its place; none: a wall, or a sphere that no impact of the round strikes.
+    pub(super) b: Option<usize>,
+    /// Velocity of what is no body of the round, m/s.
+    pub(super) velocity: DVec3,
+}
+
+/// A bystander that begins to approach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Met {
+    /// The impact that comes next, by its place.
+    pub(super) before: usize,
+    /// The bystander, by its place.
+    pub(super) bystander: usize,
+    /// Its approach speed, as a share of the speeds of its bodies.
+    pub(super) share: f64,
+}
+
+/// What skipping rounds has come to.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Skipped {
+    /// Number of rounds.
+    pub(super) rounds: u64,
+    /// Velocities after them, m/s, by place.
+    pub(super) velocities: Vec<DVec3>,
+    /// Sum of the approach speeds of each impact of the round, m/s.
+    pub(super) approaches: Vec<f64>,
+}
+
+/// A round of impacts, one after the other, and what touches beside them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Round<'a> {
+    pub(super) strikes: &'a [Strike],
+    pub(super) bystanders: &'a [Bystander],
+    /// Share of the speeds below which an approach is rounding.
+    pub(super) rounding: f64,
+}
+
+/// Velocities (m/s), three numbers for each body, then the sum of the approach speeds (m/s) of each impact.
+type Numbers = Vec<Double>;
+
+/// A linear map of velocities: of each of their components, what it contributes to all numbers.
+#[derive(Debug, Clone)]
+struct Map {
+    columns: Vec<Numbers>,
+}
+
+impl Strike {
+    /// The unit normal to 32 digits: what is off in its length would be energy.
+    fn direction(&self) -> [Double; 3] {
+        let n = self.normal.to_array().map(Double::from);
+        let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
+        n.map(|component| component / length)
+    }
+
+    /// Does the impact; returns the approach speed, m/s.
+    fn act(&self, n: &[Double; 3], v: &mut [Double]) -> Double {
+        let relative = |k: usize| v[3 * self.a + k] - self.b.map_or(Double::ZERO, |b| v[3 * b + k]);
+        let v_n = n[0] * relative(0) + n[1] * relative(1) + n[2] * relative(2);
+        let change = -(Double::ONE + self.restitution.into()) * v_n;
+        let [own, other] = self.inverse_masses.map(Double::from);
+        for (k, &normal) in n.iter().enumerate() {
+            let a = 3 * self.a + k;
+            match self.b {
+                Some(b) => {
+                    v[a] = v[a] + normal * (change * own / (own + other));
+                    v[3 * b + k] = v[3 * b + k] - normal * (change * other / (own + other));
+                }
+                None => {
+                    let loses = Double::from(self.tangential) - Double::ONE;
+                    v[a] = v[a] + normal * change + (v[a] - normal * v_n) * loses;
+                }
+            }
+        }
+        -v_n
+    }
+}
+
+impl Map {
+    /// The map of one round for so many bodies.
+    fn of_round(round: &Round, directions: &[[Double; 3]], bodies: usize) -> Map {
+        let column = |j: usize| {
+            let mut numbers = vec![Double::ZERO; 3 * bodies + round.strikes.len()];
+            numbers[j] = Double::ONE;
+            round.act(directions, &mut numbers);
+            numbers
+        };
+        Map { columns: (0..3 * bodies).map(column).collect() }
+    }
+
+    /// The numbers that the map makes of these.
+    fn apply(&self, numbers: &Numbers) -> Numbers {
+        let width = self.columns.len();
+        let mut result = vec![Double::ZERO; width];
+        result.extend_from_slice(&numbers[width..]);
+        for (column, &factor) in self.columns.iter().zip(numbers) {
+            result.iter_mut().zip(column).for_each(|(sum, &number)| *sum = *sum + number * factor);
+        }
+        result
+    }
+
+    /// The map twice in a row.
+    fn squared(&self) -> Map {
+        Map { columns: self.columns.iter().map(|column| self.apply(column)).collect() }
+    }
+}
+
+impl Round<'_> {
+    /// Skips as many rounds as surely go on as this one does, from these velocities (m/s) on; none if there are fewer
+    /// than `least`.
+    pub(super) fn skip(&self, velocities: &[DVec3], least: u64) -> Option<Skipped> {
+        let directions: Vec<_> = self.strikes.iter().map(Strike::direction).collect();
+        let mut powers = vec![Map::of_round(self, &directions, velocities.len())];
+        let mut numbers: Numbers = velocities.iter().flat_map(|v| v.to_array()).map(Double::from).collect();
+        numbers.resize(numbers.len() + self.strikes.len(), Double::ZERO);
+        let mut rounds = 0_u64;
+        for _ in 0..MOST_SKIPS {
+            let Some((end, more)) = self.skip_once(&directions, &mut powers, &numbers) else { break };
+            (numbers, rounds) = (end, rounds.saturating_add(more));
+        }
+        if rounds < least {
+            return None;
+        }
+        let (v, sums) = numbers.split_at(3 * velocities.len());
+        let value = |number: &Double| number.value();
+        Some(Skipped {
+            rounds,
+            velocities: v.chunks(3).map(|v| DVec3::new(value(&v[0]), value(&v[1]), value(&v[2]))).collect(),
+            approaches: sums.iter().map(value).collect(),
+        })
+    }
+
+    /// The bystanders that approach in one round from these velocities (m/s) on, in the order in which they begin to.
+    pub(super) fn met(&self, velocities: &[DVec3]) -> Vec<Met> {
+        let mut numbers: Numbers = velocities.iter().flat_map(|v| v.to_array()).map(Double::from).collect();
+        let mut found: Vec<Met> = Vec::new();
+        for before in 0..=self.strikes.len() {
+            for (bystander, contact) in self.bystanders.iter().enumerate() {
+                let new = found.iter().all(|met| met.bystander != bystander);
+                if new && self.is_met(contact, &numbers) {
+                    let other = contact.b.map_or(contact.velocity, |b| velocity(&numbers, b));
+                    let speeds = speed(&numbers, contact.a) + other.length();
+                    found.push(Met { before, bystander, share: -opening(contact, &numbers) / speeds });
+                }
+            }
+            if let Some(impact) = self.strikes.get(before) {
+                impact.act(&impact.direction(), &mut numbers);
+            }
+        }
+        found
+    }
+
+    /// The longest skip in doubling steps that goes on as it begins, and its rounds; `powers` are the map of 1, 2, 4 …
+    /// rounds as far as they are known.
+    fn skip_once(&self, directions: &[[Double; 3]], powers: &mut Vec<Map>, from: &Numbers) -> Option<(Numbers, u64)> {
+        let before = self.approaches(directions, from)?;
+        let mut best = None;
+        for k in 0..MOST_DOUBLINGS {
+            if k == powers.len() {
+                powers.push(powers[k - 1].squared());
+            }
+            let middle = powers[k].apply(from);
+            let end = powers[k].apply(&middle);
+            if !self.goes_on(directions, &before, &middle) || !self.goes_on(directions, &before, &end) {
+                break;
+            }
+            best = Some((end, 2 << k));
+        }
+        best
+    }
+
+    /// Whether all approaches of the next rounds are between half and twice those `before`, m/s.
+    fn goes_on(&self, directions: &[[Double; 3]], before: &[f64], numbers: &Numbers) -> bool {
+        let mut numbers = numbers.clone();
+        (0..ROUNDS_AFTER).all(|_| {
+            let Some(now) = self.approaches(directions, &numbers) else { return false };
+            self.act(directions, &mut numbers);
+            before.iter().zip(&now).all(|(&before, &now)| now >= 0.5 * before && now <= 2.0 * before)
+        })
+    }
+
+    /// By how much each approach of a round exceeds what is an impact, m/s; none if one does not, or something else that
+    /// touches approaches.
+    fn approaches(&self, directions: &[[Double; 3]], numbers: &Numbers) -> Option<Vec<f64>> {
+        let mut numbers = numbers.clone();
+        let mut found = Vec::with_capacity(self.strikes.len());
+        for (strike, direction) in self.strikes.iter().zip(directions) {
+            let speeds = speed(&numbers, strike.a) + strike.b.map_or(0.0, |b| speed(&numbers, b));
+            let beyond = strike.act(direction, &mut numbers).value() - strike.slowest;
+            if beyond <= self.rounding * speeds {
+                return None;
+            }
+            found.push(beyond);
+            if self.bystanders.iter().any(|bystander| self.is_met(bystander, &numbers)) {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    /// Whether the bodies of a contact that is no impact of the round approach, by more than rounding.
+    fn is_met(&self, bystander: &Bystander, numbers: &Numbers) -> bool {
+        let other = bystander.b.map_or(bystander.velocity, |b| velocity(numbers, b));
+        let speeds = speed(numbers, bystander.a) + other.length();
+        opening(bystander, numbers) < -self.rounding * speeds
+    }
+
+    /// Does the impacts of one round.
+    fn act(&self, directions: &[[Double; 3]], numbers: &mut Numbers) {
+        let sums = numbers.len() - self.strikes.len();
+        for (k, (strike, direction)) in self.strikes.iter().zip(directions).enumerate() {
+            let approach = strike.act(direction, numbers);
+            numbers[sums + k] = numbers[sums + k] + approach;
+        }
+    }
+}
+
+/// Normal velocity of a contact that is no impact of the round, m/s.
+fn opening(bystander: &Bystander, numbers: &Numbers) -> f64 {
+    let other = bystander.b.map_or(bystander.velocity, |b| velocity(numbers, b));
+    (velocity(numbers, bystander.a) - other).dot(bystander.normal)
+}
+
+fn velocity(numbers: &Numbers, body: usize) -> DVec3 {
+    DVec3::from_array([0, 1, 2].map(|k| numbers[3 * body + k].value()))
+}
+
+fn speed(numbers: &Numbers, body: usize) -> f64 {
+    velocity(numbers, body).length()
+}
