@@ -93,6 +93,16 @@ impl Instant {
         *count > STUCK
     }
 
+    /// Counts so many impacts of a contact at this instant that were skipped together, before which its bodies had these
+    /// speeds in all, m/s.
+    pub(super) fn count_skipped(&mut self, key: Key, impacts: u64, speeds: f64) {
+        self.events = self.events.saturating_add(impacts);
+        let (count, fastest) = self.chain.entry(key).or_default();
+        // what is left to come says whether the chain dies out
+        *count = (*count).max(SHARE);
+        *fastest = fastest.max(speeds);
+    }
+
     /// Tells an impact of a long chain, which changes what its bodies do, from a loop of rounding.
     pub(super) fn count_impact(&mut self, trajectories: &Trajectories, contact: &ContactState) {
         let long = self.events > LONG_CHAIN || self.stretch >= MOST_AT_ONCE;

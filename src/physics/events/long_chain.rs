@@ -94,6 +94,10 @@ impl Mechanics {
         let beside = self.bystanders(model, &chain);
         let velocities: Vec<_> = chain.spheres.iter().map(|&i| self.trajectories.trajectory(i).v).collect();
         let skipped = self.skip(model, &chain, beside, &velocities)?;
+        for contact in &chain.contacts {
+            let speeds = self.trajectories.speeds(contact.key);
+            self.impacts.instant.count_skipped(contact.key, skipped.rounds, speeds);
+        }
         for (&i, v) in chain.spheres.iter().zip(&skipped.velocities) {
             let x = self.trajectories.trajectory(i).x;
             self.trajectories.rewrite(i, x, *v);

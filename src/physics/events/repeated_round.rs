@@ -84,7 +84,7 @@ pub(super) struct Skipped {
 pub(super) struct Round<'a> {
     pub(super) strikes: &'a [Strike],
     pub(super) bystanders: &'a [Bystander],
-    /// Share of the speeds below which an approach is rounding.
+    /// Share of the speeds, those that the skip begins with, below which an approach is rounding.
     pub(super) rounding: f64,
 }
 
@@ -130,11 +130,11 @@ impl Strike {
 
 impl Map {
     /// The map of one round for so many bodies.
-    fn of_round(round: &Round, directions: &[[Double; 3]], bodies: usize) -> Map {
+    fn of_round(walk: &Walk, bodies: usize) -> Map {
         let column = |j: usize| {
-            let mut numbers = vec![Double::ZERO; 3 * bodies + round.strikes.len()];
+            let mut numbers = vec![Double::ZERO; 3 * bodies + walk.directions.len()];
             numbers[j] = Double::ONE;
-            round.act(directions, &mut numbers);
+            walk.act(&mut numbers);
             numbers
         };
         Map { columns: (0..3 * bodies).map(column).collect() }
@@ -159,18 +159,17 @@ impl Map {
 
 impl Round<'_> {
     /// Skips as many rounds as surely go on as this one does, from these velocities (m/s) on; none if there are fewer
-    /// than `least`.
-    pub(super) fn skip(&self, velocities: &[DVec3], least: u64) -> Option<Skipped> {
-        let directions: Vec<_> = self.strikes.iter().map(Strike::direction).collect();
-        let mut powers = vec![Map::of_round(self, &directions, velocities.len())];
-        let mut numbers: Numbers = velocities.iter().flat_map(|v| v.to_array()).map(Double::from).collect();
-        numbers.resize(numbers.len() + self.strikes.len(), Double::ZERO);
+    /// than `fewest`.
+    pub(super) fn skip(&self, velocities: &[DVec3], fewest: u64) -> Option<Skipped> {
+        let mut numbers = self.numbers(velocities);
+        let walk = Walk::new(self, &numbers);
+        let mut powers = vec![Map::of_round(&walk, velocities.len())];
         let mut rounds = 0_u64;
         for _ in 0..MOST_SKIPS {
-            let Some((end, more)) = self.skip_once(&directions, &mut powers, &numbers) else { break };
+            let Some((end, more)) = walk.skip_once(&mut powers, &numbers) else { break };
             (numbers, rounds) = (end, rounds.saturating_add(more));
         }
-        if rounds < least {
+        if rounds < fewest {
             return None;
         }
         let (v, sums) = numbers.split_at(3 * velocities.len());
@@ -184,15 +183,14 @@ impl Round<'_> {
 
     /// The bystanders that approach in one round from these velocities (m/s) on, in the order in which they begin to.
     pub(super) fn met(&self, velocities: &[DVec3]) -> Vec<Met> {
-        let mut numbers: Numbers = velocities.iter().flat_map(|v| v.to_array()).map(Double::from).collect();
+        let mut numbers = self.numbers(velocities);
         let mut found: Vec<Met> = Vec::new();
         for before in 0..=self.strikes.len() {
             for (bystander, contact) in self.bystanders.iter().enumerate() {
                 let new = found.iter().all(|met| met.bystander != bystander);
-                if new && self.is_met(contact, &numbers) {
-                    let other = contact.b.map_or(contact.velocity, |b| velocity(&numbers, b));
-                    let speeds = speed(&numbers, contact.a) + other.length();
-                    found.push(Met { before, bystander, share: -opening(contact, &numbers) / speeds });
+                let share = approach_share(contact, &numbers);
+                if new && share > self.rounding {
+                    found.push(Met { before, bystander, share });
                 }
             }
             if let Some(impact) = self.strikes.get(before) {
@@ -202,10 +200,40 @@ impl Round<'_> {
         found
     }
 
+    /// These velocities (m/s), and no approaches yet.
+    fn numbers(&self, velocities: &[DVec3]) -> Numbers {
+        let mut numbers: Numbers = velocities.iter().flat_map(|v| v.to_array()).map(Double::from).collect();
+        numbers.resize(numbers.len() + self.strikes.len(), Double::ZERO);
+        numbers
+    }
+}
+
+/// A round that is followed from some velocities on.
+struct Walk<'a> {
+    round: &'a Round<'a>,
+    /// The direction of each impact.
+    directions: Vec<[Double; 3]>,
+    /// Approach speed of each impact up to which it is rounding, or none, m/s.
+    least: Vec<f64>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(round: &'a Round<'a>, numbers: &Numbers) -> Walk<'a> {
+        let directions: Vec<_> = round.strikes.iter().map(Strike::direction).collect();
+        let mut numbers = numbers.clone();
+        let mut least = Vec::with_capacity(directions.len());
+        for (strike, direction) in round.strikes.iter().zip(&directions) {
+            let speeds = speed(&numbers, strike.a) + strike.b.map_or(0.0, |b| speed(&numbers, b));
+            least.push(strike.slowest.max(round.rounding * speeds));
+            strike.act(direction, &mut numbers);
+        }
+        Walk { round, directions, least }
+    }
+
     /// The longest skip in doubling steps that goes on as it begins, and its rounds; `powers` are the map of 1, 2, 4 …
     /// rounds as far as they are known.
-    fn skip_once(&self, directions: &[[Double; 3]], powers: &mut Vec<Map>, from: &Numbers) -> Option<(Numbers, u64)> {
-        let before = self.approaches(directions, from)?;
+    fn skip_once(&self, powers: &mut Vec<Map>, from: &Numbers) -> Option<(Numbers, u64)> {
+        let before = self.approaches(from)?;
         let mut best = None;
         for k in 0..MOST_DOUBLINGS {
             if k == powers.len() {
@@ -213,7 +241,7 @@ impl Round<'_> {
             }
             let middle = powers[k].apply(from);
             let end = powers[k].apply(&middle);
-            if !self.goes_on(directions, &before, &middle) || !self.goes_on(directions, &before, &end) {
+            if !self.goes_on(&before, &middle) || !self.goes_on(&before, &end) {
                 break;
             }
             best = Some((end, 2 << k));
@@ -222,55 +250,48 @@ impl Round<'_> {
     }
 
     /// Whether all approaches of the next rounds are between half and twice those `before`, m/s.
-    fn goes_on(&self, directions: &[[Double; 3]], before: &[f64], numbers: &Numbers) -> bool {
+    fn goes_on(&self, before: &[f64], numbers: &Numbers) -> bool {
         let mut numbers = numbers.clone();
         (0..ROUNDS_AFTER).all(|_| {
-            let Some(now) = self.approaches(directions, &numbers) else { return false };
-            self.act(directions, &mut numbers);
+            let Some(now) = self.approaches(&numbers) else { return false };
+            self.act(&mut numbers);
             before.iter().zip(&now).all(|(&before, &now)| now >= 0.5 * before && now <= 2.0 * before)
         })
     }
 
     /// By how much each approach of a round exceeds what is an impact, m/s; none if one does not, or something else that
     /// touches approaches.
-    fn approaches(&self, directions: &[[Double; 3]], numbers: &Numbers) -> Option<Vec<f64>> {
+    fn approaches(&self, numbers: &Numbers) -> Option<Vec<f64>> {
         let mut numbers = numbers.clone();
-        let mut found = Vec::with_capacity(self.strikes.len());
-        for (strike, direction) in self.strikes.iter().zip(directions) {
-            let speeds = speed(&numbers, strike.a) + strike.b.map_or(0.0, |b| speed(&numbers, b));
-            let beyond = strike.act(direction, &mut numbers).value() - strike.slowest;
-            if beyond <= self.rounding * speeds {
+        let mut found = Vec::with_capacity(self.least.len());
+        for ((strike, direction), least) in self.round.strikes.iter().zip(&self.directions).zip(&self.least) {
+            let approach = strike.act(direction, &mut numbers).value();
+            let mut beside = self.round.bystanders.iter();
+            let is_met = |bystander: &Bystander| approach_share(bystander, &numbers) > self.round.rounding;
+            if approach <= *least || beside.any(is_met) {
                 return None;
             }
-            found.push(beyond);
-            if self.bystanders.iter().any(|bystander| self.is_met(bystander, &numbers)) {
-                return None;
-            }
+            found.push(approach - strike.slowest);
         }
         Some(found)
     }
 
-    /// Whether the bodies of a contact that is no impact of the round approach, by more than rounding.
-    fn is_met(&self, bystander: &Bystander, numbers: &Numbers) -> bool {
-        let other = bystander.b.map_or(bystander.velocity, |b| velocity(numbers, b));
-        let speeds = speed(numbers, bystander.a) + other.length();
-        opening(bystander, numbers) < -self.rounding * speeds
-    }
-
     /// Does the impacts of one round.
-    fn act(&self, directions: &[[Double; 3]], numbers: &mut Numbers) {
-        let sums = numbers.len() - self.strikes.len();
-        for (k, (strike, direction)) in self.strikes.iter().zip(directions).enumerate() {
+    fn act(&self, numbers: &mut Numbers) {
+        let sums = numbers.len() - self.directions.len();
+        for (k, (strike, direction)) in self.round.strikes.iter().zip(&self.directions).enumerate() {
             let approach = strike.act(direction, numbers);
             numbers[sums + k] = numbers[sums + k] + approach;
         }
     }
 }
 
-/// Normal velocity of a contact that is no impact of the round, m/s.
-fn opening(bystander: &Bystander, numbers: &Numbers) -> f64 {
-    let other = bystander.b.map_or(bystander.velocity, |b| velocity(numbers, b));
-    (velocity(numbers, bystander.a) - other).dot(bystander.normal)
+/// How fast the bodies of a contact that is no impact of the round approach, as a share of their speeds; 0 if they stand.
+fn approach_share(contact: &Bystander, numbers: &Numbers) -> f64 {
+    let other = contact.b.map_or(contact.velocity, |b| velocity(numbers, b));
+    let speeds = speed(numbers, contact.a) + other.length();
+    let approach = -(velocity(numbers, contact.a) - other).dot(contact.normal);
+    if speeds > 0.0 { approach / speeds } else { 0.0 }
 }
 
 fn velocity(numbers: &Numbers, body: usize) -> DVec3 {
