@@ -12,6 +12,9 @@ use super::distance::{Board, boards};
 use super::finding::{Bodies, Fault, Findings};
 use super::promise::{Promise, ULPS};
 
+/// What the clock cannot tell, in multiples of machine epsilon times the time: 4 ulp.
+const CLOCK: f64 = 4.0 * f64::EPSILON;
+
 /// Bodies whose gap is below this share of their radii, or rounding, touch.
 const TOUCHING: f64 = 1e-9;
 
@@ -33,7 +36,7 @@ pub(super) struct Overlaps {
     boards: Vec<Board>,
     crowd: Crowd,
     found: Vec<Touching>,
-    /// Degrees with which the run began, until the bodies have parted.
+    /// Degrees with which the run began, or to which bodies came in what the clock cannot tell, until they have parted.
     allowed: BTreeMap<Key, f64>,
 }
 
@@ -87,6 +90,7 @@ impl Overlaps {
         findings: &mut Findings,
     ) {
         self.find(model, &state.x);
+        self.allow_for_the_clock(state.t, contacts);
         let curved = curved(model, &self.boards, state, contacts);
         for at in &self.found {
             let (_, a, b) = at.key;
@@ -99,7 +103,22 @@ impl Overlaps {
         self.forget_parted();
     }
 
-    /// Allows no more what overlapped at the start and has parted.
+    /// Allows what the clock cannot tell of bodies that have just met: so far they came in some of its ulp.
+    fn allow_for_the_clock(&mut self, t: f64, contacts: &[Contact]) {
+        let mut came: BTreeMap<Key, f64> = BTreeMap::new();
+        for row in contacts.iter().filter(|row| row.time == t) {
+            let way = came.entry(row.key()).or_default();
+            *way = way.max(CLOCK * t.abs() * row.velocity.length());
+        }
+        for at in &self.found {
+            if let Some(way) = came.get(&at.key).filter(|way| **way > at.rounding) {
+                let allowed = self.allowed.entry(at.key).or_default();
+                *allowed = allowed.max(way / at.reach);
+            }
+        }
+    }
+
+    /// Allows no more what overlapped at the start, or by the clock's rounding, and has parted.
     fn forget_parted(&mut self) {
         if !self.allowed.is_empty() {
             let deep: BTreeSet<Key> = self.found.iter().filter(|at| at.gap < 0.0).map(|at| at.key).collect();

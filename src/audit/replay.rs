@@ -266,6 +266,13 @@ fn free_spheres(model: &Model, free: Freedom, contacts: &[Contact]) -> Bound {
             bound.holds[b] = true;
         }
     }
+    // of impacts that one row sums up, the single velocities are not known
+    for row in contacts.iter().filter(|row| row.impact_count() > 1) {
+        bound.holds[row.a] = true;
+        if row.kind == Kind::Pair {
+            bound.holds[row.b] = true;
+        }
+    }
     let rows = contacts.iter().chain(free.answered).map(Contact::key);
     for (kind, a, b) in held.into_iter().chain(rows) {
         match kind {

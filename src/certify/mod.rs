@@ -2,8 +2,9 @@
 //!
 //! [`certify`] runs a scene by `exact` and a *shadow* beside it in arithmetic of 32 digits ([`Double`]). The shadow is told
 //! which bodies meet next, and nothing else: it finds the time by Newton's iteration, acts by the paper's law, slides on
-//! faces, over edges and over other spheres, and shows for all other bodies, by planes between them, that they do not touch. It shares no code with the
-//! solvers and reads the scene, not the model. Where it cannot follow, the certificate ends, and says why.
+//! faces, over edges and over other spheres, and shows for all other bodies, by planes between them, that they do not
+//! touch. With the solvers it shares that arithmetic alone, and it reads the scene, not the model. Where it cannot follow, the
+//! certificate ends, and says why.
 //!
 //! ```
 //! use carom::certify::certify;
@@ -17,7 +18,7 @@
 //!
 //! | file | owns |
 //! |---|---|
-//! | `double`, `vector` | the arithmetic |
+//! | `vector` | points and directions in the arithmetic of [`Double`] |
 //! | `course` | how a sphere moves between events |
 //! | `obstacle` | walls and spheres as what is met: closest points, normals |
 //! | `bend`, `polynomial` | the series of a motion that what holds it bends; where a polynomial falls below 0 |

@@ -30,6 +30,13 @@ pub(crate) struct Log {
 const MOST_ROWS: usize = 1 << 20;
 
 impl Log {
+    /// Tells an impact of an event-driven method.
+    #[inline(always)]
+    pub(crate) fn impact(&mut self, row: Contact) {
+        self.tallies.deepest_degree = self.tallies.deepest_degree.max(row.degree);
+        self.tell(row);
+    }
+
     /// Tells a row of an event-driven method: as an event, and in the list of the frame's contacts up to a million.
     #[inline(always)]
     pub(crate) fn tell(&mut self, row: Contact) {

@@ -5,18 +5,11 @@ use super::contact_state::ContactState;
 use super::mechanics::Mechanics;
 use super::rest_criteria::Verdict;
 use super::rest_reason::RestReason;
-use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::contact::{Class, Key, Kind};
 use crate::physics::impact_law::{along, pair_push, separation_speed};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::Stall;
-
-/// Tells the log of an impact.
-#[inline(always)]
-pub(super) fn note(log: &mut Log, row: Contact) {
-    log.tallies.deepest_degree = log.tallies.deepest_degree.max(row.degree);
-    log.tell(row);
-}
 
 impl Mechanics {
     /// Handles two bodies that touch while they approach, or are pressed together: an impact, or a rest that may begin.
@@ -54,10 +47,14 @@ impl Mechanics {
                 Ok(Changed::Nothing)
             }
             Verdict::Leave => {
-                if contact.a_n >= 0.0 {
-                    self.ensure_separating(model, key, self.trajectories.min_separation_speed(&contact));
+                let least = self.trajectories.min_separation_speed(&contact);
+                let pushed = contact.a_n >= 0.0 && self.ensure_separating(model, key, least);
+                // what a body is pushed into, if it rests on that, sees no approach
+                if pushed && key.0 == Kind::Pair && self.rests.count(key.1) + self.rests.count(key.2) > 0 {
+                    self.break_rests(model, log, key)
+                } else {
+                    Ok(Changed::Nothing)
                 }
-                Ok(Changed::Nothing)
             }
         }
     }
@@ -88,7 +85,7 @@ impl Mechanics {
         };
         self.ensure_separating(model, contact.key, 0.0);
         let row = contact.row(self.trajectories.now, Class::Collide, impulse, target);
-        note(log, row);
+        log.impact(row);
         self.impacts.instant.count_impact(&self.trajectories, contact);
         self.impacts.last.note(contact.key, self.trajectories.now);
         let changed = self.break_rests(model, log, contact.key)?;

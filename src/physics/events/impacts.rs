@@ -2,7 +2,7 @@
 
 use super::chattering::Chatter;
 use super::instant::Instant;
-use super::long_chain::LastImpacts;
+use super::last_impacts::LastImpacts;
 use crate::physics::model::Model;
 
 /// Memory that an entry of a map by contacts takes, bytes, with what is free beside it.

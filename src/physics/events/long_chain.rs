@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::contact_state::ContactState;
-use super::impact::note;
+use super::last_impacts::COMPARED;
 use super::mechanics::Mechanics;
 use super::repeated_round::{Bystander, Round, Skipped, Strike};
 use super::rounding::{BRUSH, CHAIN, HOP};
@@ -16,12 +16,6 @@ use crate::physics::impact_law::separation_speed;
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::overlap::touching;
-
-/// Impacts that are compared: a chain is long if its last ones, so many, repeat a round.
-const COMPARED: usize = 128;
-
-/// Most impacts of a round.
-const MOST_IMPACTS: usize = 12;
 
 /// Most spheres of a round.
 const MOST_SPHERES: usize = 6;
@@ -32,56 +26,11 @@ const HELD: f64 = 1e-6;
 /// Fewest rounds that are skipped: shorter chains are told impact by impact.
 const FEWEST_ROUNDS: u64 = 64;
 
-/// The last impacts of a run, up to [`COMPARED`] of them.
-#[derive(Debug, Clone)]
-pub(super) struct LastImpacts {
-    keys: [Key; COMPARED],
-    count: usize,
-    /// Time of the first of them, s.
-    began: f64,
-}
-
-impl Default for LastImpacts {
-    fn default() -> LastImpacts {
-        LastImpacts { keys: [(Kind::Wall, 0, 0); COMPARED], count: 0, began: 0.0 }
-    }
-}
-
-impl LastImpacts {
-    /// Notes an impact at `now`, s.
-    #[inline(always)]
-    pub(super) fn note(&mut self, key: Key, now: f64) {
-        if self.count == 0 {
-            self.began = now;
-        }
-        if let Some(place) = self.keys.get_mut(self.count) {
-            *place = key;
-            self.count += 1;
-        }
-    }
-
-    /// Whether there are enough to be compared.
-    #[inline(always)]
-    pub(super) fn are_many(&self) -> bool {
-        self.count == COMPARED
-    }
-
-    /// The impacts of the round that these repeat, in the order in which they come next, and when the first of these was,
-    /// s; none if they repeat none. Begins anew.
-    fn take_round(&mut self) -> Option<(&[Key], f64)> {
-        self.count = 0;
-        let keys = &self.keys;
-        let repeats = |period: &usize| keys[..COMPARED - period] == keys[*period..];
-        let period = (2..=MOST_IMPACTS).find(repeats)?;
-        Some((&keys[COMPARED - period..], self.began))
-    }
-}
-
 /// The bodies of a round and how they touch.
 struct Chain {
     /// The spheres that it strikes, ascending.
     spheres: Vec<usize>,
-    /// Its contacts, in the order of its impacts.
+    /// The contacts, in the order of the impacts.
     contacts: Vec<ContactState>,
 }
 
@@ -91,9 +40,9 @@ impl Mechanics {
     #[cold]
     pub(super) fn skip_rounds(&mut self, model: &Model, log: &mut Log) -> Option<Vec<usize>> {
         let chain = self.chain(model)?;
-        let beside = self.bystanders(model, &chain);
+        let bystanders = self.bystanders(model, &chain);
         let velocities: Vec<_> = chain.spheres.iter().map(|&i| self.trajectories.trajectory(i).v).collect();
-        let skipped = self.skip(model, &chain, beside, &velocities)?;
+        let skipped = self.skip(model, &chain, bystanders, &velocities)?;
         for contact in &chain.contacts {
             let speeds = self.trajectories.speeds(contact.key);
             self.impacts.instant.count_skipped(contact.key, skipped.rounds, speeds);
@@ -112,29 +61,27 @@ impl Mechanics {
         Some(chain.spheres)
     }
 
-    /// Skips rounds from these velocities (m/s) on. A wall beside the chain into which each round drives a sphere a little,
-    /// because the normals of the impacts are not quite level with it, stops that sphere right after.
+    /// Skips rounds from these velocities (m/s) on. What touches beside the chain, and what each round drives a sphere into a
+    /// little, because the normals of the impacts are not quite level with it, stops that sphere right after.
     fn skip(
         &self,
         model: &Model,
         chain: &Chain,
-        mut beside: Vec<(f64, Bystander)>,
+        mut bystanders: Vec<Bystander>,
         velocities: &[DVec3],
     ) -> Option<Skipped> {
         let mut strikes: Vec<Strike> = chain.contacts.iter().map(|contact| strike(model, chain, contact)).collect();
-        let bystanders: Vec<Bystander> = beside.iter().map(|&(_, bystander)| bystander).collect();
         let met = Round { strikes: &strikes, bystanders: &bystanders, rounding: CHAIN }.met(velocities);
         for met in met.iter().rev() {
-            let (most, bystander) = beside[met.bystander];
-            if met.share > most || bystander.b.is_some() {
+            let bystander = bystanders[met.bystander];
+            if met.share > bystander.most || bystander.moves_alone() {
                 return None;
             }
             strikes.insert(met.before, hold(model, chain, &bystander));
         }
         let is_met = |place: usize| met.iter().any(|met| met.bystander == place);
-        let mut place = 0..beside.len();
-        beside.retain(|_| place.next().is_some_and(|place| !is_met(place)));
-        let bystanders: Vec<Bystander> = beside.iter().map(|&(_, bystander)| bystander).collect();
+        let mut place = 0..bystanders.len();
+        bystanders.retain(|_| place.next().is_some_and(|place| !is_met(place)));
         let round = Round { strikes: &strikes, bystanders: &bystanders, rounding: CHAIN };
         let mut skipped = round.skip(velocities, FEWEST_ROUNDS)?;
         let mut place = 0..strikes.len();
@@ -146,7 +93,7 @@ impl Mechanics {
     /// meanwhile by more than rounding.
     fn chain(&mut self, model: &Model) -> Option<Chain> {
         let (keys, began) = self.impacts.last.take_round()?;
-        let (keys, lasted) = (keys.to_vec(), self.trajectories.now - began);
+        let lasted = self.trajectories.now - began;
         let both = keys.iter().flat_map(|&(kind, a, b)| [Some(a), (kind == Kind::Pair).then_some(b)]);
         let mut spheres: Vec<usize> = both.flatten().collect();
         spheres.sort_unstable();
@@ -155,6 +102,7 @@ impl Mechanics {
             return None;
         }
         let contacts: Vec<ContactState> = keys.iter().map(|&key| self.advanced_contact(model, key)).collect();
+        self.add_touching(model, &mut spheres);
         let stays = |contact: &ContactState| {
             let slack = touching(contact.reach, contact.size());
             let way = self.trajectories.speeds(contact.key) * lasted;
@@ -163,9 +111,25 @@ impl Mechanics {
         contacts.iter().all(stays).then_some(Chain { spheres, contacts })
     }
 
+    /// Adds the spheres that touch some of a chain, brought to the present, if there is room for all of them.
+    fn add_touching(&mut self, model: &Model, spheres: &mut Vec<usize>) {
+        let touches = |i: usize, j: usize| {
+            let key = (Kind::Pair, i.min(j), i.max(j));
+            let contact = self.trajectories.contact_geometry(model, key, self.trajectories.now);
+            contact.gap <= touching(contact.reach, contact.size())
+        };
+        let beside = |&j: &usize| spheres.binary_search(&j).is_err() && spheres.iter().any(|&i| touches(i, j));
+        let more: Vec<usize> = (0..model.len()).filter(beside).collect();
+        if spheres.len() + more.len() <= MOST_SPHERES {
+            more.iter().for_each(|&i| self.advance(model, i));
+            spheres.extend(more);
+            spheres.sort_unstable();
+        }
+    }
+
     /// Whatever touches the spheres of a chain beside its own contacts, and the share of their speed with which a round may
     /// drive them into it and be stopped: into what they rest on, or graze.
-    fn bystanders(&self, model: &Model, chain: &Chain) -> Vec<(f64, Bystander)> {
+    fn bystanders(&self, model: &Model, chain: &Chain) -> Vec<Bystander> {
         let mut found = Vec::new();
         let mut look = |key: Key| {
             if chain.contacts.iter().any(|contact| contact.key == key) {
@@ -185,15 +149,9 @@ impl Mechanics {
             let b = if kind == Kind::Pair { place(partner).ok() } else { None };
             let moves = kind == Kind::Pair && b.is_none();
             let velocity = if moves { self.trajectories.path(partner, self.trajectories.now).v } else { DVec3::ZERO };
-            let grazed = BRUSH + HOP * contact.size() / contact.reach;
-            let most = if kind == Kind::Pair {
-                0.0
-            } else if self.rests.holds(key) {
-                HELD
-            } else {
-                grazed
-            };
-            found.push((most, Bystander { normal, a, b, velocity }));
+            let grazed = CHAIN.max(BRUSH + HOP * contact.size() / contact.reach);
+            let most = if self.rests.holds(key) { HELD } else { grazed };
+            found.push(Bystander { normal, a, b, velocity, is_pair: kind == Kind::Pair, most });
         };
         for &i in &chain.spheres {
             (0..model.faces.len()).for_each(|wall| look((Kind::Wall, i, wall)));
@@ -212,7 +170,7 @@ impl Mechanics {
         let impulse = (target + approach_speed) / (model.inverse_masses[a] + other);
         let summed = ContactState { v_n: -approach_speed, ..*contact };
         let row = summed.row(self.trajectories.now, Class::Collide, impulse, target);
-        note(log, Contact { impacts: count, ..row });
+        log.impact(Contact { impacts: count, ..row });
     }
 }
 
@@ -230,9 +188,10 @@ fn strike(model: &Model, chain: &Chain, contact: &ContactState) -> Strike {
     Strike { normal: contact.normal, a: place(a), b, inverse_masses, restitution, tangential, slowest, stops: false }
 }
 
-/// A resting contact with a wall as what stops a slow approach.
+/// A contact beside a chain as what stops a slow approach.
 fn hold(model: &Model, chain: &Chain, held: &Bystander) -> Strike {
-    let inverse_masses = [model.inverse_masses[chain.spheres[held.a]], 0.0];
+    let inverse_mass = |place: usize| model.inverse_masses[chain.spheres[place]];
+    let inverse_masses = [inverse_mass(held.a), held.b.map_or(0.0, inverse_mass)];
     let &Bystander { normal, a, b, .. } = held;
     Strike { normal, a, b, inverse_masses, restitution: 0.0, tangential: 1.0, slowest: 0.0, stops: true }
 }

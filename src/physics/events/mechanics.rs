@@ -57,22 +57,27 @@ impl Mechanics {
     }
 
     /// Makes a contact that is over open at no less than `least` (m/s, a rounding): the prediction would find it again and
-    /// again. The body that is freer gives way.
-    pub(crate) fn ensure_separating(&mut self, model: &Model, key: Key, least: f64) {
-        let Mechanics { trajectories, rests, .. } = self;
+    /// again. Whether it had to; both bodies give way by their masses, or what lies between two others would be sent to and fro
+    /// for ever.
+    pub(crate) fn ensure_separating(&mut self, model: &Model, key: Key, least: f64) -> bool {
+        let trajectories = &mut self.trajectories;
         let (kind, a, b) = key;
-        let yields = kind == Kind::Pair && rests.count(b) < rests.count(a);
-        let (i, sign) = if yields { (b, -1.0) } else { (a, 1.0) };
-        let mut nudge = f64::EPSILON * trajectories.trajectory(i).v.length().max(f64::MIN_POSITIVE);
-        for _ in 0..64 {
+        let [one, other] = [a, if kind == Kind::Pair { b } else { a }].map(|i| trajectories.inverse_mass(i));
+        let share = if kind == Kind::Pair { one / (one + other) } else { 1.0 };
+        let mut nudge = f64::EPSILON * trajectories.speeds(key).max(f64::MIN_POSITIVE);
+        for pushes in 0..64 {
             let v_n = trajectories.v_n(model, key);
             if v_n >= least || v_n.is_nan() {
-                return;
+                return pushes > 0;
             }
-            let normal = trajectories.contact_state(model, key).normal;
-            trajectories.push(i, normal * (sign * nudge.max(least - v_n)));
+            let push = trajectories.contact_state(model, key).normal * nudge.max(least - v_n);
+            trajectories.push(a, push * share);
+            if kind == Kind::Pair {
+                trajectories.push(b, push * (share - 1.0));
+            }
             nudge *= 2.0;
         }
+        true
     }
 
     /// The bodies of a contact now, their trajectories brought to the present.

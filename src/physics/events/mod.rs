@@ -14,7 +14,7 @@
 //! | `rounding` | every threshold that stands for rounding |
 //! | `bounce`, `bounce_series`, `rub` | corrections of a bounce; series of bounces in closed form |
 //! | `chattering`, `instant`, `impacts` | what impacts have led to: small bounces in a row, chains at one instant |
-//! | `long_chain`, `repeated_round` | a chain of impacts that repeats a round at one place: many rounds at once |
+//! | `long_chain`, `last_impacts`, `repeated_round` | a chain of impacts that repeats a round at one place: many rounds at once |
 //! | `squeezed` | spheres that just fit between walls |
 //! | `islands` | resting contacts, solved island by island: what holds, and how the spheres move on |
 //! | `curved` | islands without a parabola: the motion over edges, corners and spheres |
@@ -36,6 +36,7 @@ mod impacts;
 mod initial_contacts;
 mod instant;
 mod islands;
+mod last_impacts;
 mod long_chain;
 mod mechanics;
 mod plain_pair;

@@ -3,7 +3,6 @@
 //! once.
 
 use super::contact_state::ContactState;
-use super::impact::note;
 use super::mechanics::Mechanics;
 use super::record::{Plan, Trajectory};
 use super::rounding::LONG_CHAIN;
@@ -81,7 +80,7 @@ impl Mechanics {
         let target = separation_speed(pair.contact.v_n, Class::Collide, Kind::Pair, &model.law);
         let share = self.exchange(model, &pair);
         let impulse = (target - pair.contact.v_n) / share;
-        note(log, pair.contact.row(now, Class::Collide, impulse, target));
+        log.impact(pair.contact.row(now, Class::Collide, impulse, target));
         self.impacts.last.note(pair.contact.key, now);
         for slot in pair.slots {
             self.trajectories.check_range_at(slot)?;

@@ -55,6 +55,17 @@ pub(super) struct Bystander {
     pub(super) b: Option<usize>,
     /// Velocity of what is no body of the round, m/s.
     pub(super) velocity: DVec3,
+    /// Whether the other body is a sphere.
+    pub(super) is_pair: bool,
+    /// Share of the speeds with which they may approach all the same: what stops them takes that little.
+    pub(super) most: f64,
+}
+
+impl Bystander {
+    /// Whether the other body is a sphere that is none of the round's.
+    pub(super) fn moves_alone(&self) -> bool {
+        self.b.is_none() && self.is_pair
+    }
 }
 
 /// A bystander that begins to approach.
@@ -64,7 +75,7 @@ pub(super) struct Met {
     pub(super) before: usize,
     /// The bystander, by its place.
     pub(super) bystander: usize,
-    /// Its approach speed, as a share of the speeds of its bodies.
+    /// Approach speed, as a share of the speeds of both bodies.
     pub(super) share: f64,
 }
 
@@ -183,14 +194,15 @@ impl Round<'_> {
 
     /// The bystanders that approach in one round from these velocities (m/s) on, in the order in which they begin to.
     pub(super) fn met(&self, velocities: &[DVec3]) -> Vec<Met> {
+        let fastest = self.fastest(velocities);
         let mut numbers = self.numbers(velocities);
         let mut found: Vec<Met> = Vec::new();
         for before in 0..=self.strikes.len() {
             for (bystander, contact) in self.bystanders.iter().enumerate() {
                 let new = found.iter().all(|met| met.bystander != bystander);
-                let share = approach_share(contact, &numbers);
-                if new && share > self.rounding {
-                    found.push(Met { before, bystander, share });
+                if new && approach_share(contact, &numbers) > self.rounding {
+                    let speeds = fastest[contact.a] + contact.b.map_or(contact.velocity.length(), |b| fastest[b]);
+                    found.push(Met { before, bystander, share: -opening(contact, &numbers) / speeds });
                 }
             }
             if let Some(impact) = self.strikes.get(before) {
@@ -200,7 +212,18 @@ impl Round<'_> {
         found
     }
 
-    /// These velocities (m/s), and no approaches yet.
+    /// The fastest that each body is in one round from these velocities (m/s) on, m/s.
+    fn fastest(&self, velocities: &[DVec3]) -> Vec<f64> {
+        let mut numbers = self.numbers(velocities);
+        let mut fastest: Vec<f64> = velocities.iter().map(|v| v.length()).collect();
+        for impact in self.strikes {
+            impact.act(&impact.direction(), &mut numbers);
+            fastest.iter_mut().enumerate().for_each(|(body, fastest)| *fastest = fastest.max(speed(&numbers, body)));
+        }
+        fastest
+    }
+
+    /// Numbers of these velocities (m/s), and of no approaches yet.
     fn numbers(&self, velocities: &[DVec3]) -> Numbers {
         let mut numbers: Numbers = velocities.iter().flat_map(|v| v.to_array()).map(Double::from).collect();
         numbers.resize(numbers.len() + self.strikes.len(), Double::ZERO);
@@ -249,13 +272,19 @@ impl<'a> Walk<'a> {
         best
     }
 
-    /// Whether all approaches of the next rounds are between half and twice those `before`, m/s.
+    /// Whether all approaches of the next rounds are between half and twice those `before`, m/s; within ten times where a wall
+    /// stops what grazes it, whose first approach may be that of several rounds.
     fn goes_on(&self, before: &[f64], numbers: &Numbers) -> bool {
         let mut numbers = numbers.clone();
         (0..ROUNDS_AFTER).all(|_| {
             let Some(now) = self.approaches(&numbers) else { return false };
             self.act(&mut numbers);
-            before.iter().zip(&now).all(|(&before, &now)| now >= 0.5 * before && now <= 2.0 * before)
+            let most = self.round.strikes.iter().map(|strike| if strike.stops { 10.0 } else { 2.0 });
+            before
+                .iter()
+                .zip(&now)
+                .zip(most)
+                .all(|((&before, &now), most)| now * most >= before && now <= most * before)
         })
     }
 
@@ -267,7 +296,7 @@ impl<'a> Walk<'a> {
         for ((strike, direction), least) in self.round.strikes.iter().zip(&self.directions).zip(&self.least) {
             let approach = strike.act(direction, &mut numbers).value();
             let mut beside = self.round.bystanders.iter();
-            let is_met = |bystander: &Bystander| approach_share(bystander, &numbers) > self.round.rounding;
+            let is_met = |bystander: &Bystander| approach_share(bystander, &numbers) > bystander.most;
             if approach <= *least || beside.any(is_met) {
                 return None;
             }
@@ -288,10 +317,14 @@ impl<'a> Walk<'a> {
 
 /// How fast the bodies of a contact that is no impact of the round approach, as a share of their speeds; 0 if they stand.
 fn approach_share(contact: &Bystander, numbers: &Numbers) -> f64 {
+    let speeds = speed(numbers, contact.a) + contact.b.map_or(contact.velocity.length(), |b| speed(numbers, b));
+    if speeds > 0.0 { -opening(contact, numbers) / speeds } else { 0.0 }
+}
+
+/// Normal velocity of a contact that is no impact of the round, m/s.
+fn opening(contact: &Bystander, numbers: &Numbers) -> f64 {
     let other = contact.b.map_or(contact.velocity, |b| velocity(numbers, b));
-    let speeds = speed(numbers, contact.a) + other.length();
-    let approach = -(velocity(numbers, contact.a) - other).dot(contact.normal);
-    if speeds > 0.0 { approach / speeds } else { 0.0 }
+    (velocity(numbers, contact.a) - other).dot(contact.normal)
 }
 
 fn velocity(numbers: &Numbers, body: usize) -> DVec3 {
