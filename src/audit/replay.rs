@@ -86,7 +86,7 @@ impl Replay {
                     Class::Leave | Class::Release => 0.0,
                 };
             }
-            taken += self.rubbed(model, contacts);
+            taken += self.rubbed(model, contacts) + self.summed(model, contacts);
             for i in (0..model.len()).filter(|&i| !bound.holds[i]) {
                 self.fly(model, i, after.t);
                 let off = (after.v[i] - self.known[i].v).length();
@@ -116,6 +116,13 @@ impl Replay {
         };
         let all = |row: &Contact| 0.5 * model.masses[row.a] * self.fastest[row.a] * self.fastest[row.a];
         contacts.iter().filter(series).map(all).sum()
+    }
+
+    /// The energy (J) that impacts may take of which one row tells the sum: all of their bodies'.
+    fn summed(&self, model: &Model, contacts: &[Contact]) -> f64 {
+        let all = |i: usize| 0.5 * model.masses[i] * self.fastest[i] * self.fastest[i];
+        let both = |row: &Contact| all(row.a) + if row.kind == Kind::Pair { all(row.b) } else { 0.0 };
+        contacts.iter().filter(|row| row.impact_count() > 1).map(both).sum()
     }
 
     /// Bounds the speeds within the frame. Contacts do no work, so that √K of bodies that touch each other grows by no more

@@ -22,6 +22,7 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
     let released = frame.events.iter().filter(|row| row.class == Class::Release);
     let released: BTreeSet<Key> = released.map(Contact::key).collect();
     let most = (0..model.len()).map(|i| model.acceleration(i).length()).fold(0.0, f64::max);
+    let fastest = frame.state.v.iter().map(|v| v.length()).fold(0.0, f64::max);
     let rests = |row: &&Contact| row.class == Class::Rest && row.time == t && !released.contains(&row.key());
     for row in frame.contacts.iter().filter(rests) {
         let (offset, reach, size) = measured(model, frame, row);
@@ -41,7 +42,8 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
             let both = pull(row.a) + if row.kind == Kind::Pair { pull(row.b) } else { 0.0 };
             slowest += (2.0 * both * allowed).sqrt();
         }
-        findings.hold(Fault::RestSpeed, t, bodies, [opening.abs(), slowest]);
+        // and of what lies between others, the rounding of their speeds
+        findings.hold(Fault::RestSpeed, t, bodies, [opening.abs(), slowest + ULPS * fastest]);
     }
 }
 

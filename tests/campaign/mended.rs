@@ -45,10 +45,15 @@ pub(crate) const MENDED_TUBES: [(u64, u32); 17] = [
 /// Joints where the judge took the edge beside the foot for the closest point.
 pub(crate) const MENDED_JOINTS: [(u64, u32); 3] = [(1778, 2), (3125, 3), (3416, 3)];
 
-/// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance, or passed through
-/// each other, where a plan that was made for another trajectory had been put off.
-pub(crate) const MENDED_CROWDS: [(u64, u32); 5] = [(153, 3), (205, 3), (262, 3), (3700, 4), (5115, 4)];
+/// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance; passed through each
+/// other, where a plan that was made for another trajectory had been put off; or were struck in a wedge a million times,
+/// and sank in meanwhile, or went on for ever.
+#[rustfmt::skip]
+pub(crate) const MENDED_CROWDS: [(u64, u32); 14] = [
+    (153, 3), (205, 3), (262, 3), (1289, 4), (2539, 4), (3700, 4), (5115, 4), (6079, 4), (7504, 4), (8377, 4), (9336, 4),
+    (13465, 4), (16193, 4), (17626, 4),
+];
 
 /// Of the generator of other units: where the foot passed from a face over an edge, rounding made an impact that took half the
-/// speed.
-pub(crate) const MENDED_UNITS: [(u64, u32); 1] = [(2028, 20)];
+/// speed; the second is one of the check, of an event at the level from which on events are told.
+pub(crate) const MENDED_UNITS: [(u64, u32); 2] = [(2028, 20), (4178, 20)];

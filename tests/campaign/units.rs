@@ -142,8 +142,7 @@ pub(crate) fn check(seed: u64, until: f64, met: &mut Met) -> Result<(), Failure>
     let scaled = in_units(&scene, length, time);
     let (rows, other) = events(&scaled, 0.5 * time, until * time, (unit, STOPPED / EITHER));
     // what rounding leaves out of the one run, or of the other, is passed over
-    let mut rows = rows.iter().peekable();
-    let slight = |row: &Contact| !matters(&scaled, row, unit, STOPPED * EITHER);
+    let (mut rows, slight) = (rows.iter().peekable(), |row: &Contact| !matters(&scaled, row, unit, STOPPED * EITHER));
     met.impacts += plain.len() as u64;
     let fail = |kind: &str, text: String| {
         keep(&scene, seed);
@@ -163,7 +162,8 @@ pub(crate) fn check(seed: u64, until: f64, met: &mut Met) -> Result<(), Failure>
             slow = slow.max(by_slowness(&scene, event));
         }
         let allowed = MORE * grown + least + slow;
-        while rows.next_if(|row| slight(row) && apart(event, row, length, time).is_none()).is_some() {}
+        let other = |row: &Contact| apart(event, row, length, time).is_none_or(|off| off > allowed);
+        while rows.next_if(|row| slight(row) && other(row)).is_some() {}
         let Some(it) = rows.next() else {
             return fail("missing", format!("{event:?} does not happen ({other:?}, plain {end:?})"));
         };

@@ -88,6 +88,7 @@ impl Mechanics {
         log.impact(row);
         self.impacts.instant.count_impact(&self.trajectories, contact);
         self.impacts.last.note(contact.key, self.trajectories.now);
+        self.trajectories.to_and_fro = self.impacts.last.go_to_and_fro();
         let changed = self.break_rests(model, log, contact.key)?;
         if target == 0.0 && contact.a_n < 0.0 {
             // from an ulp above the face it would take √(2 ulp/g) to fall

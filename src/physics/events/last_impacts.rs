@@ -8,18 +8,30 @@ pub(super) const COMPARED: usize = 128;
 /// Most impacts of a round.
 const MOST_IMPACTS: usize = 12;
 
+/// Impacts before one among which its contact is looked for.
+const LOOKED_BACK: usize = 8;
+
+/// Impacts in a row, each of a contact that was among the last few, from which on bodies are sent to and fro at one place.
+const TO_AND_FRO: u32 = 24;
+
 /// The last impacts of a run, up to [`COMPARED`] of them.
 #[derive(Debug, Clone)]
 pub(super) struct LastImpacts {
-    keys: [Key; COMPARED],
-    count: usize,
-    /// Time of the first of them, s.
+    /// Their contacts in one word each, the one that came k-th at place k modulo their number.
+    words: [u64; COMPARED],
+    /// Number of impacts so far.
+    total: usize,
+    /// Number of impacts before those that are compared next.
+    before: usize,
+    /// Time of the first of those, s.
     began: f64,
+    /// How many of the last impacts in a row were of a contact that was among the few before.
+    again: u32,
 }
 
 impl Default for LastImpacts {
     fn default() -> LastImpacts {
-        LastImpacts { keys: [(Kind::Wall, 0, 0); COMPARED], count: 0, began: 0.0 }
+        LastImpacts { words: [u64::MAX; COMPARED], total: 0, before: 0, began: 0.0, again: 0 }
     }
 }
 
@@ -27,31 +39,77 @@ impl LastImpacts {
     /// Notes an impact at `now`, s.
     #[inline(always)]
     pub(super) fn note(&mut self, key: Key, now: f64) {
-        if self.count == 0 {
+        if self.total == self.before {
             self.began = now;
         }
-        if let Some(place) = self.keys.get_mut(self.count) {
-            *place = key;
-        }
-        self.count += 1;
+        let word = word(key);
+        let back = |impacts: usize| self.words[self.total.wrapping_sub(impacts) % COMPARED];
+        // without a branch for each
+        let again = (2..=LOOKED_BACK).fold(false, |again, impacts| again | (word == back(impacts)));
+        self.again = if again { self.again.saturating_add(1) } else { 0 };
+        self.words[self.total % COMPARED] = word;
+        self.total = self.total.wrapping_add(1);
     }
 
     /// Whether there are enough to be compared.
     #[inline(always)]
     pub(super) fn are_many(&self) -> bool {
-        self.count >= COMPARED
+        self.total.wrapping_sub(self.before) >= COMPARED
+    }
+
+    /// Whether bodies are sent to and fro at one place.
+    #[inline(always)]
+    pub(super) fn go_to_and_fro(&self) -> bool {
+        self.again >= TO_AND_FRO
     }
 
     /// The impacts of the round that these repeat, in the order in which they come next, and when the first of these was,
     /// s; none if they repeat none. Begins anew.
     pub(super) fn take_round(&mut self) -> Option<(Vec<Key>, f64)> {
-        // what is not kept has gone on like the others, or nothing is skipped
-        let beyond = std::mem::take(&mut self.count) - COMPARED;
-        let keys = &self.keys;
-        let repeats = |period: &usize| keys[..COMPARED - period] == keys[*period..];
+        self.before = self.total;
+        let mut words = self.words;
+        words.rotate_left(self.total % COMPARED);
+        let repeats = |period: &usize| words[..COMPARED - period] == words[*period..];
         let period = (2..=MOST_IMPACTS).find(repeats)?;
-        let mut round = keys[COMPARED - period..].to_vec();
-        round.rotate_left(beyond % period);
-        Some((round, self.began))
+        Some((words[COMPARED - period..].iter().map(|&word| key(word)).collect(), self.began))
+    }
+}
+
+/// A contact in one word: its kind in the highest bit, then both indices, of 31 and of 32 bits.
+#[inline(always)]
+fn word((kind, a, b): Key) -> u64 {
+    u64::from(kind == Kind::Pair) << 63 | (a as u64) << 32 | b as u64
+}
+
+/// The contact of a word.
+fn key(word: u64) -> Key {
+    let kind = if word >> 63 == 1 { Kind::Pair } else { Kind::Wall };
+    (kind, (word >> 32 & 0x7fff_ffff) as usize, (word & 0xffff_ffff) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_gives_its_contact_back() {
+        for contact in
+            [(Kind::Wall, 0, 0), (Kind::Pair, 3, 5), (Kind::Pair, 0x7fff_ffff, 0xffff_ffff), (Kind::Wall, 7, 1)]
+        {
+            assert_eq!(key(word(contact)), contact);
+        }
+    }
+
+    #[test]
+    fn a_round_is_told_in_the_order_in_which_it_comes_next() {
+        let round = [(Kind::Wall, 1, 0), (Kind::Pair, 1, 2), (Kind::Wall, 1, 4)];
+        for beyond in 0..4 {
+            let mut last = LastImpacts::default();
+            (0..COMPARED + beyond).for_each(|k| last.note(round[k % 3], 0.0));
+            let next = (COMPARED + beyond) % 3;
+            let expected: Vec<Key> = (0..3).map(|k| round[(next + k) % 3]).collect();
+            assert_eq!(last.take_round(), Some((expected, 0.0)));
+            assert!(last.go_to_and_fro() && !last.are_many());
+        }
     }
 }

@@ -116,7 +116,7 @@ impl Mechanics {
         let touches = |i: usize, j: usize| {
             let key = (Kind::Pair, i.min(j), i.max(j));
             let contact = self.trajectories.contact_geometry(model, key, self.trajectories.now);
-            contact.gap <= touching(contact.reach, contact.size())
+            contact.gap <= HOP * contact.size()
         };
         let beside = |&j: &usize| spheres.binary_search(&j).is_err() && spheres.iter().any(|&i| touches(i, j));
         let more: Vec<usize> = (0..model.len()).filter(beside).collect();
@@ -136,7 +136,7 @@ impl Mechanics {
                 return;
             }
             let contact = self.trajectories.contact_geometry(model, key, self.trajectories.now);
-            if contact.gap > touching(contact.reach, contact.size()) {
+            if contact.gap > HOP * contact.size() {
                 return;
             }
             let place = |i: usize| chain.spheres.binary_search(&i);

@@ -82,6 +82,7 @@ impl Mechanics {
         let impulse = (target - pair.contact.v_n) / share;
         log.impact(pair.contact.row(now, Class::Collide, impulse, target));
         self.impacts.last.note(pair.contact.key, now);
+        self.trajectories.to_and_fro = self.impacts.last.go_to_and_fro();
         for slot in pair.slots {
             self.trajectories.check_range_at(slot)?;
         }

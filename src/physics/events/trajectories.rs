@@ -36,6 +36,8 @@ struct PastTrajectory {
 pub(crate) struct Trajectories {
     /// Time of the last event, s.
     pub(crate) now: f64,
+    /// Whether the last impacts sent bodies to and fro at one place.
+    pub(crate) to_and_fro: bool,
     /// The record of each sphere, by slot.
     pub(crate) records: Vec<Record>,
     /// The time scale of the start, s: the size of the clock's reading at its zero.
@@ -78,6 +80,7 @@ impl Trajectories {
             Pull::PerSphere => (DVec3::ZERO, model.accelerations.clone()),
         };
         Trajectories {
+            to_and_fro: false,
             now: state.t,
             records: (0..model.len()).map(record).collect(),
             time_scale: time_scale(model, state),
@@ -233,6 +236,7 @@ impl Trajectories {
     /// A copy of which states from `time` (s) on can be read, and none before.
     pub(crate) fn since(&self, time: f64) -> Trajectories {
         Trajectories {
+            to_and_fro: self.to_and_fro,
             now: self.now,
             records: self.records.clone(),
             time_scale: self.time_scale,

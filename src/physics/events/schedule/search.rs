@@ -64,11 +64,14 @@ impl<D: Detector> Search<'_, D> {
             if self.model.faces[wall].height(self.path.x).abs() - r > self.way {
                 continue;
             }
-            let span = self.span_for_wall(wall, plan);
-            let Some(due) = self.detector.wall(&self.path, r, &self.model.faces[wall], span) else {
-                continue;
+            let there = self.trajectories.to_and_fro && self.is_there(wall, r);
+            let found = if there {
+                Some(Due { after: 0.0, is_contact: true })
+            } else {
+                self.detector.wall(&self.path, r, &self.model.faces[wall], self.span_for_wall(wall, plan))
             };
-            let time = self.trajectories.now + if self.is_there(wall, r) { 0.0 } else { due.after };
+            let Some(due) = found else { continue };
+            let time = self.trajectories.now + due.after;
             if time < plan.contact || (time == plan.contact && wins_over(wall, plan)) {
                 (plan.contact, plan.kind, plan.other, plan.is_contact) =
                     (time, Kind::Wall, wall as u32, due.is_contact);
@@ -77,8 +80,8 @@ impl<D: Detector> Search<'_, D> {
         count
     }
 
-    /// Whether the sphere, of radius `r` (m), approaches a wall from no farther than its coordinates tell: it meets it now. It
-    /// would be sent there again and again without coming closer, and what else moves meanwhile would overlap it.
+    /// Whether the sphere, of radius `r` (m), approaches a wall from no farther than its coordinates tell: of one that is sent
+    /// to and fro there the clock would go on without its coming closer, and what else moves meanwhile would overlap it.
     #[inline]
     fn is_there(&self, wall: usize, r: f64) -> bool {
         let (face, x) = (&self.model.faces[wall], self.path.x);
