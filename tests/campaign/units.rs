@@ -162,8 +162,8 @@ pub(crate) fn check(seed: u64, until: f64, met: &mut Met) -> Result<(), Failure>
             slow = slow.max(by_slowness(&scene, event));
         }
         let allowed = MORE * grown + least + slow;
-        let other = |row: &Contact| apart(event, row, length, time).is_none_or(|off| off > allowed);
-        while rows.next_if(|row| slight(row) && other(row)).is_some() {}
+        let differs = |row: &Contact| apart(event, row, length, time).is_none_or(|off| off > allowed);
+        while rows.next_if(|row| slight(row) && differs(row)).is_some() {}
         let Some(it) = rows.next() else {
             return fail("missing", format!("{event:?} does not happen ({other:?}, plain {end:?})"));
         };
