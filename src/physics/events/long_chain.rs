@@ -10,7 +10,7 @@ use super::contact_state::ContactState;
 use super::last_impacts::COMPARED;
 use super::mechanics::Mechanics;
 use super::repeated_round::{Bystander, Round, Skipped, Strike};
-use super::rounding::{BRUSH, CHAIN, HOP};
+use super::rounding::{BRUSH, CHAIN, HELD, HOP};
 use crate::physics::contact::{Class, Contact, Key, Kind};
 use crate::physics::impact_law::separation_speed;
 use crate::physics::log::Log;
@@ -19,9 +19,6 @@ use crate::physics::overlap::touching;
 
 /// Most spheres of a round.
 const MOST_SPHERES: usize = 6;
-
-/// Share of its speed with which a round may drive a sphere into a wall that it rests on.
-const HELD: f64 = 1e-6;
 
 /// Fewest rounds that are skipped: shorter chains are told impact by impact.
 const FEWEST_ROUNDS: u64 = 64;

@@ -12,6 +12,7 @@
 //! | [`SUM`] | velocities, accelerations | 1 ulp a summand | contacts that hold let go, and again | slow motion stops |
 //! | [`BRUSH`] | an approach between two that open, or along a wall | 2 ulp of the speed | contacts take turns for ever; edges rub | soft impacts lose nothing |
 //! | [`CHAIN`] | approaches after a long chain | 1000 ulp of the speed | a collapse is not seen to end | a chain ends early |
+//! | [`HELD`] | an approach, beside a long chain, to what rests | below 1e-8 of the speed | chains go on impact by impact | a rest that breaks is missed |
 //! | [`CLOSING`] | an approach that a look sees | 2 ulp of the speeds | three in a row push the middle one for ever | slow approaches are seen late |
 //! | [`LOST`] | an impact's change of speed | 10 ulp of the speed | loops count as chains | chains count as loops |
 //! | [`DRIVEN`] | an approach of two that rest | 1e-15 of the speed | rests break by rounding | soft blows break no rest |
@@ -57,6 +58,9 @@ pub(crate) const CLOSING: f64 = 64.0 * f64::EPSILON;
 /// Below this share of the fastest approach of a chain, or of the speeds of its bodies, an approach is what the rounding of
 /// a thousand impacts may have made: 4096 ulp.
 pub(crate) const CHAIN: f64 = 4096.0 * f64::EPSILON;
+
+/// Share of the speeds with which a round of a long chain may drive a body into what it rests on, and be stopped by that.
+pub(crate) const HELD: f64 = 1e-6;
 
 /// Impacts at approaches below this share of the speeds of their bodies change nothing: 64 ulp.
 pub(crate) const LOST: f64 = 64.0 * f64::EPSILON;
