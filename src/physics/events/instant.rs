@@ -1,9 +1,10 @@
 //! One instant: chains of impacts while the clock stands still, which of them never end, and when a run gives up.
 //!
-//! A chain that ends, however long, is computed to its end (`long_chain` follows many rounds at once): a light ball between a wall and a heavy one is hit π √(M/m)
-//! times (Galperin 2003), and restitution just below 1 changes that little. Two impacts of such a round multiply the two
-//! speeds by a matrix whose eigenvalues are complex, so that the chain ends, as long as 1 − e is less than 4 √(m/M) or so:
-//! n impacts of a chain that ends have n (1 − e) < 4π. A chain that never ends, inelastic collapse (McNamara, Young 1992),
+//! A chain that ends, however long, is computed to its end (`long_chain` follows many rounds at once): a light ball between
+//! a wall and a heavy one is hit π √(M/m) times (Galperin 2003), and restitution just below 1 changes that little. Two
+//! impacts of such a round multiply the two speeds by a matrix whose eigenvalues are complex, so that the chain ends, as long
+//! as 1 − e is less than 4 √(m/M) or so: n impacts of a chain that ends have n (1 − e) < 4π. A chain that never ends,
+//! inelastic collapse (McNamara, Young 1992),
 //! goes far beyond that, and multiplies every approach speed by a factor below 1 again and again: its limit is that nothing
 //! approaches. So a chain has collapsed when one of its contacts has had four times as many impacts as that, or approaches
 //! by no more than rounding leaves of what it did at this instant, or than the clock can tell of what pulls it.

@@ -54,7 +54,8 @@ impl Mechanics {
             self.tell(model, log, contact, (approach_speed, skipped.rounds));
         }
         // what was struck last parts, up to the rounding of what is kept
-        self.ensure_separating(model, chain.contacts.last()?.key, 0.0);
+        let last = chain.contacts.last().expect("a round has impacts");
+        self.ensure_separating(model, last.key, 0.0);
         Some(chain.spheres)
     }
 
