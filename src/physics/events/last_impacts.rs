@@ -12,7 +12,7 @@ const MOST_IMPACTS: usize = 12;
 const LOOKED_BACK: usize = 8;
 
 /// Impacts in a row, each of a contact that was among the last few, from which on bodies are sent to and fro at one place.
-const TO_AND_FRO: u32 = 4;
+const TO_AND_FRO: u32 = 8;
 
 /// The last impacts of a run, up to [`COMPARED`] of them.
 #[derive(Debug, Clone)]
