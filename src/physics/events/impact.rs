@@ -49,8 +49,11 @@ impl Mechanics {
             Verdict::Leave => {
                 let least = self.trajectories.min_separation_speed(&contact);
                 let pushed = contact.a_n >= 0.0 && self.ensure_separating(model, key, least);
-                // what a body is pushed into, if it rests on that, sees no approach
-                if pushed && key.0 == Kind::Pair && self.rests.count(key.1) + self.rests.count(key.2) > 0 {
+                // what a body is pushed into, if it rests on that, sees no approach; an island that pushes back again and again
+                // by rounding is left alone
+                let rests = |i: usize| self.rests.count(i) > 0;
+                let pressed = pushed && key.0 == Kind::Pair && (rests(key.1) || rests(key.2));
+                if pressed && !self.impacts.instant.is_stuck(key) {
                     self.break_rests(model, log, key)
                 } else {
                     Ok(Changed::Nothing)
