@@ -40,7 +40,7 @@ pub(super) struct Strike {
     pub(super) tangential: f64,
     /// Approach speed down to which it is an impact, m/s: beyond it, the contact rests.
     pub(super) slowest: f64,
-    /// Whether it is no impact, but a wall that stops what grazes it.
+    /// Whether it is no impact, but what touches beside the chain and stops a body that grazes it.
     pub(super) stops: bool,
 }
 
@@ -272,8 +272,8 @@ impl<'a> Walk<'a> {
         best
     }
 
-    /// Whether all approaches of the next rounds are between half and twice those `before`, m/s; within ten times where a wall
-    /// stops what grazes it, whose first approach may be that of several rounds.
+    /// Whether all approaches of the next rounds are between half and twice those `before`, m/s; within ten times where
+    /// something beside the chain stops what grazes it: its first approach may be that of several rounds.
     fn goes_on(&self, before: &[f64], numbers: &Numbers) -> bool {
         let mut numbers = numbers.clone();
         (0..ROUNDS_AFTER).all(|_| {
