@@ -79,6 +79,29 @@ fn of_a_wedge_that_rubs_the_limit_is_a_light_ball_that_holds_the_heavy_one() {
 }
 
 #[test]
+fn what_comes_to_rest_at_two_walls_does_not_wait_while_a_heavy_ball_drives_it_into_a_third() {
+    // In the corner of three walls the light ball approaches two of them no faster than rest_speed, and rests; the heavy one
+    // strikes it into the third ten million times meanwhile. Each time all three stop it: the heavy ball loses its approach
+    // down to rest_speed, and then rests too; nothing else changes it.
+    let (r, light, up) = (0.1, 1e-7, dvec3(0.117, 0.986, 0.117).normalize());
+    let walls = [DVec3::X, DVec3::Y, DVec3::Z].map(|n| {
+        let (along, across) = (dvec3(n.y, n.z, n.x), dvec3(n.z, n.x, n.y));
+        wall(2.0 * (along + across), along * 4.0, across * 4.0)
+    });
+    let coming = up * -0.435 + dvec3(0.1, 0.0, -0.1);
+    let small = Sphere { mass: light, ..sphere(DVec3::splat(r), DVec3::ZERO, r) };
+    let big = sphere(DVec3::splat(r) + up * (2.0 * r), coming, r);
+    let law = ContactLaw { rest_speed: 0.1, ..law(0.0, 0.0, 1.0) };
+    let mut run = recorded(&scene(DVec3::ZERO, law, walls.to_vec(), vec![small, big]), EXACT);
+    let state = go(&mut run, 1e-9);
+    let expected = coming - up * coming.dot(up);
+    let (left, off) = (state.v[0].length(), (state.v[1] - expected).length());
+    // The light ball has taken of the momentum its own share at most.
+    assert!(left <= 1e-9 && off <= 2.0 * light + 1e-11, "{left:e} m/s left, off by {off:e} m/s");
+    assert!(run.tallies().impacts as f64 > 1.0 / light, "{} impacts", run.tallies().impacts);
+}
+
+#[test]
 fn the_digits_of_pi_are_counted_to_the_billions_at_one_instant() {
     // Galperin 2003: a wall, 1 kg at rest, 100^k kg coming in: ⌊π 10^k⌋ impacts.
     for (k, digits) in [(5, 314_159), (6, 3_141_592), (7, 31_415_926), (8, 314_159_265), (9, 3_141_592_653_u64)] {

@@ -269,7 +269,9 @@ impl<D: Detector> EventDriven<D> {
         let Mechanics { trajectories, rests, impacts } = mechanics;
         let (time, slot) = schedule.take_next(trajectories, rests);
         let (kind, now) = (event_kind(trajectories, rests, time, slot), trajectories.now);
-        if rests.is_dirty() && (time > now || kind != EventKind::Contact) {
+        // in a long chain what rests would wait for ever while others strike it
+        let has_waited = impacts.instant.is_long();
+        if rests.is_dirty() && (time > now || kind != EventKind::Contact || has_waited) {
             let changed = mechanics.settle(model, log)?;
             self.predict(model, &changed);
             return Ok(Turn::Event);

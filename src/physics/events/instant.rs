@@ -57,6 +57,12 @@ impl Instant {
         self.chain.len() + self.releases.len()
     }
 
+    /// Whether the chain of events at this instant is long.
+    #[inline(always)]
+    pub(super) fn is_long(&self) -> bool {
+        self.events > LONG_CHAIN
+    }
+
     /// Whether this contact rests because the chain of impacts it belongs to has collapsed.
     pub(crate) fn has_collapsed(&self, key: Key) -> bool {
         self.collapsed && self.chain.get(&key).is_some_and(|&(count, _)| count > SHARE)
@@ -66,7 +72,7 @@ impl Instant {
     pub(super) fn collapses(&mut self, model: &Model, trajectories: &Trajectories, contact: &ContactState) -> bool {
         let ((kind, a, b), approach_speed) = (contact.key, -contact.v_n);
         let faint = approach_speed * approach_speed < f64::MIN_POSITIVE;
-        if self.events <= LONG_CHAIN && !faint {
+        if !self.is_long() && !faint {
             return false;
         }
         let (restitution, other) = match kind {
@@ -106,7 +112,7 @@ impl Instant {
 
     /// Tells an impact of a long chain, which changes what its bodies do, from a loop of rounding.
     pub(super) fn count_impact(&mut self, trajectories: &Trajectories, contact: &ContactState) {
-        let long = self.events > LONG_CHAIN || self.stretch >= MOST_AT_ONCE;
+        let long = self.is_long() || self.stretch >= MOST_AT_ONCE;
         if long && -contact.v_n > LOST * trajectories.speeds(contact.key) {
             self.spent = self.spent.saturating_sub(OTHER - IMPACT);
             self.stretch = self.stretch.saturating_sub(OTHER - IMPACT);

@@ -9,7 +9,7 @@ pub(super) const COMPARED: usize = 128;
 const MOST_IMPACTS: usize = 12;
 
 /// Impacts before one among which its contact is looked for.
-const LOOKED_BACK: usize = 8;
+const LOOKED_BACK: usize = 32;
 
 /// Impacts in a row, each of a contact that was among the last few, from which on bodies are sent to and fro at one place.
 const TO_AND_FRO: u32 = 8;
@@ -19,6 +19,8 @@ const TO_AND_FRO: u32 = 8;
 pub(super) struct LastImpacts {
     /// Their contacts in one word each, the one that came k-th at place k modulo their number.
     words: [u64; COMPARED],
+    /// The words of the last few once more, together, so that they are compared all at once.
+    recent: [u64; LOOKED_BACK],
     /// Number of impacts so far.
     total: usize,
     /// Number of impacts before those that are compared next.
@@ -31,7 +33,14 @@ pub(super) struct LastImpacts {
 
 impl Default for LastImpacts {
     fn default() -> LastImpacts {
-        LastImpacts { words: [u64::MAX; COMPARED], total: 0, before: 0, began: 0.0, again: 0 }
+        LastImpacts {
+            words: [u64::MAX; COMPARED],
+            recent: [u64::MAX; LOOKED_BACK],
+            total: 0,
+            before: 0,
+            began: 0.0,
+            again: 0,
+        }
     }
 }
 
@@ -43,11 +52,13 @@ impl LastImpacts {
             self.began = now;
         }
         let word = word(key);
-        let back = |impacts: usize| self.words[self.total.wrapping_sub(impacts) % COMPARED];
-        // without a branch for each
-        let again = (2..=LOOKED_BACK).fold(false, |again, impacts| again | (word == back(impacts)));
+        let last = self.words[self.total.wrapping_sub(1) % COMPARED];
+        // without a branch for each; the same contact twice in a row is no way to and fro
+        let found = self.recent.iter().fold(0, |found, &other| found + u32::from(other == word));
+        let again = found > u32::from(last == word);
         self.again = if again { self.again.saturating_add(1) } else { 0 };
         self.words[self.total % COMPARED] = word;
+        self.recent[self.total % LOOKED_BACK] = word;
         self.total = self.total.wrapping_add(1);
     }
 

@@ -72,10 +72,12 @@ impl Mechanics {
         let met = Round { strikes: &strikes, bystanders: &bystanders, rounding: CHAIN }.met(velocities);
         for met in met.iter().rev() {
             let bystander = bystanders[met.bystander];
-            if met.share > bystander.most || bystander.moves_alone() {
+            let fits = met.share <= bystander.most;
+            if !fits && met.approach_speed > bystander.rests_up_to || bystander.moves_alone() {
                 return None;
             }
-            strikes.insert(met.before, hold(model, chain, &bystander));
+            let fastest = if fits { f64::INFINITY } else { bystander.rests_up_to };
+            strikes.insert(met.before, hold(model, chain, &bystander, fastest));
         }
         let is_met = |place: usize| met.iter().any(|met| met.bystander == place);
         let mut place = 0..bystanders.len();
@@ -148,8 +150,8 @@ impl Mechanics {
             let moves = kind == Kind::Pair && b.is_none();
             let velocity = if moves { self.trajectories.path(partner, self.trajectories.now).v } else { DVec3::ZERO };
             let grazed = CHAIN.max(BRUSH + HOP * contact.size() / contact.reach);
-            let most = if self.rests.holds(key) { HELD } else { grazed };
-            found.push(Bystander { normal, a, b, velocity, is_pair: kind == Kind::Pair, most });
+            let (most, rests_up_to) = if self.rests.holds(key) { (HELD, model.law.rest_speed) } else { (grazed, 0.0) };
+            found.push(Bystander { normal, a, b, velocity, is_pair: kind == Kind::Pair, most, rests_up_to });
         };
         for &i in &chain.spheres {
             (0..model.faces.len()).for_each(|wall| look((Kind::Wall, i, wall)));
@@ -182,14 +184,14 @@ fn strike(model: &Model, chain: &Chain, contact: &ContactState) -> Strike {
         Kind::Pair => (Some(place(b)), model.inverse_masses[b], law.restitution, 1.0),
     };
     let inverse_masses = [model.inverse_masses[a], other];
-    let slowest = law.rest_speed;
-    Strike { normal: contact.normal, a: place(a), b, inverse_masses, restitution, tangential, slowest, stops: false }
+    let (normal, a, slowest, fastest) = (contact.normal, place(a), law.rest_speed, f64::INFINITY);
+    Strike { normal, a, b, inverse_masses, restitution, tangential, slowest, fastest, stops: false }
 }
 
-/// A contact beside a chain as what stops a slow approach.
-fn hold(model: &Model, chain: &Chain, held: &Bystander) -> Strike {
+/// A contact beside a chain as what stops an approach up to this speed, m/s.
+fn hold(model: &Model, chain: &Chain, held: &Bystander, fastest: f64) -> Strike {
     let inverse_mass = |place: usize| model.inverse_masses[chain.spheres[place]];
     let inverse_masses = [inverse_mass(held.a), held.b.map_or(0.0, inverse_mass)];
     let &Bystander { normal, a, b, .. } = held;
-    Strike { normal, a, b, inverse_masses, restitution: 0.0, tangential: 1.0, slowest: 0.0, stops: true }
+    Strike { normal, a, b, inverse_masses, restitution: 0.0, tangential: 1.0, slowest: 0.0, fastest, stops: true }
 }

@@ -40,6 +40,8 @@ pub(super) struct Strike {
     pub(super) tangential: f64,
     /// Approach speed down to which it is an impact, m/s: beyond it, the contact rests.
     pub(super) slowest: f64,
+    /// Approach speed up to which the contact does what it does, m/s.
+    pub(super) fastest: f64,
     /// Whether it is no impact, but what touches beside the chain and stops a body that grazes it.
     pub(super) stops: bool,
 }
@@ -59,6 +61,8 @@ pub(super) struct Bystander {
     pub(super) is_pair: bool,
     /// Share of the speeds with which they may approach all the same: what stops them takes that little.
     pub(super) most: f64,
+    /// Approach speed up to which they may approach all the same and are stopped, m/s: they rest on each other.
+    pub(super) rests_up_to: f64,
 }
 
 impl Bystander {
@@ -77,6 +81,8 @@ pub(super) struct Met {
     pub(super) bystander: usize,
     /// Approach speed, as a share of the speeds of both bodies.
     pub(super) share: f64,
+    /// Approach speed, m/s.
+    pub(super) approach_speed: f64,
 }
 
 /// What skipping rounds has come to.
@@ -202,7 +208,8 @@ impl Round<'_> {
                 let new = found.iter().all(|met| met.bystander != bystander);
                 if new && approach_share(contact, &numbers) > self.rounding {
                     let speeds = fastest[contact.a] + contact.b.map_or(contact.velocity.length(), |b| fastest[b]);
-                    found.push(Met { before, bystander, share: -opening(contact, &numbers) / speeds });
+                    let approach_speed = -opening(contact, &numbers);
+                    found.push(Met { before, bystander, share: approach_speed / speeds, approach_speed });
                 }
             }
             if let Some(impact) = self.strikes.get(before) {
@@ -297,7 +304,7 @@ impl<'a> Walk<'a> {
             let approach = strike.act(direction, &mut numbers).value();
             let mut beside = self.round.bystanders.iter();
             let is_met = |bystander: &Bystander| approach_share(bystander, &numbers) > bystander.most;
-            if approach <= *least || beside.any(is_met) {
+            if approach <= *least || approach > strike.fastest || beside.any(is_met) {
                 return None;
             }
             found.push(approach - strike.slowest);

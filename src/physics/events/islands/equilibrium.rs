@@ -174,10 +174,18 @@ impl Settled {
         contact.normal.dot(a) + contact.surface.curvature_term(contact.normal, v)
     }
 
-    /// Size of the rounding of relative accelerations, m/s².
+    /// Size of the rounding of relative accelerations, m/s², that of the velocities which turn the normal included.
     fn noise(&self, contact: &Resting, bodies: &[Body]) -> f64 {
-        let of = |body: usize| bodies[body].applied.length() + self.a[body].length();
-        SUM * (of(contact.a) + contact.b.map_or(0.0, of))
+        let sum = |of: &dyn Fn(&Body, DVec3) -> f64| {
+            let of = |body: usize| of(&bodies[body], self.a[body]);
+            SUM * (of(contact.a) + contact.b.map_or(0.0, of))
+        };
+        let slip = sum(&|body, _| body.v.length());
+        let turned = match contact.surface {
+            Surface::Face => 0.0,
+            Surface::Edge { radius, .. } | Surface::Round { radius } => slip * slip / radius,
+        };
+        sum(&|body, a| body.applied.length() + a.length()) + turned
     }
 
     /// Whether the normal of a contact turns: its bodies move, or begin to move, past each other.
