@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::candidates::Candidates;
 use super::simd::{MOST, PairBatch, Query, Simd};
-use crate::physics::contact::Kind;
+use crate::physics::contact::{Key, Kind};
 use crate::physics::contact_time::{is_far, straight_pair};
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::islands::resting::Rests;
@@ -71,7 +71,7 @@ impl<D: Detector> Search<'_, D> {
                 self.detector.wall(&self.path, r, &self.model.faces[wall], self.span_for_wall(wall, plan))
             };
             let Some(due) = found else { continue };
-            let time = self.trajectories.now + due.after;
+            let time = self.time_of(&due, || (Kind::Wall, i, wall));
             if time < plan.contact || (time == plan.contact && wins_over(wall, plan)) {
                 (plan.contact, plan.kind, plan.other, plan.is_contact) =
                     (time, Kind::Wall, wall as u32, due.is_contact);
@@ -170,7 +170,7 @@ impl<D: Detector> Search<'_, D> {
     /// Looks at one pair; returns 1 if there was anything to look at.
     #[inline]
     pub(super) fn pair(&self, other: usize, plan: &mut Plan) -> u64 {
-        let (records, now) = (&self.trajectories.records, self.trajectories.now);
+        let records = &self.trajectories.records;
         if D::ONE_LOOK && self.done.binary_search(&self.trajectories.sphere(other)).is_ok() {
             return 1;
         }
@@ -193,7 +193,28 @@ impl<D: Detector> Search<'_, D> {
         if due.after == 0.0 && self.approaches_by_rounding(&seen) {
             return 1;
         }
-        self.offer(other, now + due.after, due.is_contact, plan)
+        let pair = |i: usize, j: usize| (Kind::Pair, i.min(j), i.max(j));
+        let sphere = |slot: usize| self.trajectories.sphere(slot);
+        let time = self.time_of(&due, || pair(sphere(self.slot), sphere(other)));
+        self.offer(other, time, due.is_contact, plan)
+    }
+
+    /// Time of what is due, s: of a contact that begins sooner than the clock can tell, and would be left as it is now, the
+    /// next one that the clock can tell. It would be found and left for ever.
+    #[inline]
+    fn time_of(&self, due: &Due, key: impl Fn() -> Key) -> f64 {
+        let now = self.trajectories.now;
+        let time = now + due.after;
+        let at_once = time <= now && due.after > 0.0 && due.is_contact;
+        if at_once && self.is_left(key()) { now.next_up() } else { time }
+    }
+
+    /// Whether a contact opens now, if only by rounding, and goes on opening.
+    #[cold]
+    #[inline(never)]
+    fn is_left(&self, key: Key) -> bool {
+        let contact = self.trajectories.contact_state(self.model, key);
+        contact.a_n >= 0.0 && contact.v_n >= self.trajectories.min_separation_speed(&contact)
     }
 
     /// Whether the sphere and one on the path `seen`, which touch and accelerate alike, approach by rounding alone. What
