@@ -60,6 +60,10 @@ struct ActiveSet<'a> {
     dependent: f64,
     /// √A_jj of every row.
     lengths: Vec<f64>,
+    /// The non-zero entries of every row's column: body, entry.
+    columns: Vec<[(usize, DVec3); 2]>,
+    /// Weighted opening of each row that is no more than rounding.
+    rounding: Vec<f64>,
     /// The holding contacts, in the order of the factor's columns.
     holding: Vec<usize>,
     holds: Vec<bool>,
@@ -82,10 +86,13 @@ impl ActiveSet<'_> {
         let count = problem.rows.len();
         let weighted = |(u, w): (&DVec3, &f64)| (*u / w.sqrt()).to_array();
         let free: Vec<f64> = problem.free.iter().zip(&problem.inverse_mass).flat_map(weighted).collect();
+        let lengths: Vec<f64> = (0..count).map(|row| problem.diagonal(row).sqrt()).collect();
         let mut set = ActiveSet {
             problem,
             dependent,
-            lengths: (0..count).map(|row| problem.diagonal(row).sqrt()).collect(),
+            columns: (0..count).map(|row| column(problem, row, lengths[row])).collect(),
+            rounding: (0..count).map(|row| ROUNDING * problem.size(row) / lengths[row]).collect(),
+            lengths,
             holding: Vec::new(),
             holds: vec![false; count],
             refused: vec![false; count],
@@ -104,17 +111,10 @@ impl ActiveSet<'_> {
         set
     }
 
-    /// The non-zero entries of a row's column: body, entry.
-    fn column(&self, row: usize) -> [(usize, DVec3); 2] {
-        let (row, length) = (&self.problem.rows[row], self.lengths[row]);
-        let part = |body: usize| row.normal * (self.problem.inverse_mass[body].sqrt() / length);
-        [(row.a, part(row.a)), row.b.map_or((row.a, DVec3::ZERO), |b| (b, -part(b)))]
-    }
-
     /// The opening g·u + c of a row, weighted.
     fn opening(&self, row: usize, u: &[f64]) -> f64 {
         let at = |body: usize| DVec3::from_slice(&u[3 * body..]);
-        let [p, q] = self.column(row);
+        let [p, q] = self.columns[row];
         p.1.dot(at(p.0)) + q.1.dot(at(q.0)) + self.problem.rows[row].offset / self.lengths[row]
     }
 
@@ -123,8 +123,7 @@ impl ActiveSet<'_> {
         let mut worst: Option<(usize, f64)> = None;
         for row in (0..self.holds.len()).filter(|&row| !self.holds[row] && !self.refused[row]) {
             let opening = self.opening(row, &self.u);
-            let beyond = opening < -ROUNDING * self.problem.size(row) / self.lengths[row];
-            if beyond && worst.is_none_or(|(_, fastest)| opening < fastest) {
+            if opening < -self.rounding[row] && worst.is_none_or(|(_, fastest)| opening < fastest) {
                 worst = Some((row, opening));
             }
         }
@@ -135,7 +134,7 @@ impl ActiveSet<'_> {
     fn admit(&mut self, row: usize) {
         if let Append::Dependent(weights) = self.append(row, self.dependent) {
             let slack = 1.0 + weights.iter().map(|weight| weight.abs()).sum::<f64>();
-            let rounding = ROUNDING * self.problem.size(row) / self.lengths[row] * slack;
+            let rounding = self.rounding[row] * slack;
             let size = self.holding.len();
             if self.opening(row, &self.u) >= -rounding || !self.replace(row, &weights) {
                 self.refused[row] = true;
@@ -160,7 +159,7 @@ impl ActiveSet<'_> {
     /// Appends `row` to the factor and the set.
     fn append(&mut self, row: usize, threshold: f64) -> Append {
         let mut column = vec![0.0; self.free.len()];
-        for (body, part) in self.column(row) {
+        for (body, part) in self.columns[row] {
             column[3 * body..3 * body + 3].iter_mut().zip(part.to_array()).for_each(|(sum, part)| *sum += part);
         }
         let outcome = self.factor.append(column, threshold);
@@ -259,4 +258,11 @@ impl ActiveSet<'_> {
     fn forces(&self) -> Vec<f64> {
         self.loads.iter().zip(&self.lengths).map(|(load, length)| load / length).collect()
     }
+}
+
+/// The non-zero entries of a row's column, which is this long before it is scaled: body, entry.
+fn column(problem: &Problem, row: usize, length: f64) -> [(usize, DVec3); 2] {
+    let row = &problem.rows[row];
+    let part = |body: usize| row.normal * (problem.inverse_mass[body].sqrt() / length);
+    [(row.a, part(row.a)), row.b.map_or((row.a, DVec3::ZERO), |b| (b, -part(b)))]
 }

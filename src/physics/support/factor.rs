@@ -59,8 +59,15 @@ impl Factor {
 
     /// Removes from `vector` what lies in the columns' span, and returns its parts along Q.
     pub(super) fn project_out(&self, vector: &mut [f64]) -> Vec<f64> {
-        let parts: Vec<f64> = self.q.iter().map(|q| dot(q, vector)).collect();
-        for (q, part) in self.q.iter().zip(&parts) {
+        let mut parts: Vec<f64> = Vec::with_capacity(self.q.len() + 1);
+        let (quads, others) = self.q.as_chunks::<4>();
+        quads.iter().for_each(|quad| parts.extend(dots(quad, vector)));
+        parts.extend(others.iter().map(|q| dot(q, vector)));
+        let (shares, rest) = parts.as_chunks::<4>();
+        for (quad, share) in quads.iter().zip(shares) {
+            combined(quad, vector, |value, k, q| value - share[k] * q);
+        }
+        for (q, part) in others.iter().zip(rest) {
             vector.iter_mut().zip(q).for_each(|(value, q)| *value -= part * q);
         }
         parts
@@ -69,7 +76,12 @@ impl Factor {
     /// The product Q y.
     pub(super) fn combine(&self, y: &[f64], length: usize) -> Vec<f64> {
         let mut sum = vec![0.0; length];
-        for (q, part) in self.q.iter().zip(y) {
+        let (quads, others) = self.q.as_chunks::<4>();
+        let (shares, rest) = y.as_chunks::<4>();
+        for (quad, share) in quads.iter().zip(shares) {
+            combined(quad, &mut sum, |value, k, q| value + share[k] * q);
+        }
+        for (q, part) in others.iter().zip(rest) {
             sum.iter_mut().zip(q).for_each(|(value, q)| *value += part * q);
         }
         sum
@@ -98,6 +110,30 @@ impl Factor {
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+/// The products of `vector` with four columns, each summed as [`dot`] does: side by side, none waits for another.
+fn dots([p, q, r, s]: &[Vec<f64>; 4], vector: &[f64]) -> [f64; 4] {
+    let n = vector.len();
+    let (p, q, r, s) = (&p[..n], &q[..n], &r[..n], &s[..n]);
+    let mut sums = [dot(&[], &[]); 4];
+    for i in 0..n {
+        sums[0] += p[i] * vector[i];
+        sums[1] += q[i] * vector[i];
+        sums[2] += r[i] * vector[i];
+        sums[3] += s[i] * vector[i];
+    }
+    sums
+}
+
+/// Changes every value of `vector` by its entries in four columns, one after another.
+#[inline]
+fn combined([p, q, r, s]: &[Vec<f64>; 4], vector: &mut [f64], by: impl Fn(f64, usize, f64) -> f64) {
+    let n = vector.len();
+    let (p, q, r, s) = (&p[..n], &q[..n], &r[..n], &s[..n]);
+    for i in 0..n {
+        vector[i] = by(by(by(by(vector[i], 0, p[i]), 1, q[i]), 2, r[i]), 3, s[i]);
+    }
 }
 
 fn turned(cos: f64, sin: f64, x: f64, y: f64) -> (f64, f64) {

@@ -63,10 +63,11 @@ pub struct Bodies<'a> {
     pub applied: &'a [DVec3],
 }
 
-/// The velocity problem: v⁺ = v + M⁻¹ Jᵀ Λ, 0 ≤ Λ ⊥ J v⁺ ≥ 0. It never adds kinetic energy.
-pub fn velocities(bodies: Bodies, contacts: &[Resting]) -> Solution {
+/// The velocity problem: v⁺ = v + M⁻¹ Jᵀ Λ, 0 ≤ Λ ⊥ J v⁺ ≥ 0. It never adds kinetic energy. `guess` as in
+/// [`solve`](super::solve()).
+pub fn velocities(bodies: Bodies, contacts: &[Resting], guess: &[f64]) -> Solution {
     let rows: Short<Row> = contacts.iter().map(|contact| row(contact, 0.0)).collect();
-    solve_from(bodies.inverse_mass, bodies.velocity, &rows, &[])
+    solve_from(bodies.inverse_mass, bodies.velocity, &rows, guess)
 }
 
 /// The acceleration problem for contacts that neither open nor close: a = a_applied + M⁻¹ Jᵀ λ, 0 ≤ λ ⊥ J a + k ≥ 0,
@@ -110,7 +111,7 @@ impl Held {
 
 /// Solves the velocity problem of `contacts`, then the acceleration problem of those with J v⁺ = 0.
 pub fn hold(bodies: Bodies, contacts: &[Resting], guess: &[f64]) -> Held {
-    let velocity = velocities(bodies, contacts);
+    let velocity = velocities(bodies, contacts, &[]);
     let mut after = bodies.velocity.to_vec();
     for (&body, &v) in velocity.bodies.iter().zip(&velocity.vectors) {
         after[body] = v;

@@ -48,7 +48,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let (applied, velocity): (Short<DVec3>, Short<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
     let slack: Short<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
-    let (impulses, stopped) = stop_approaches(bodies, all, &resting, &slack);
+    let (impulses, stopped) = stop_approaches(bodies, all, (&resting, loads), &slack);
     let opens = |contact: &Resting| {
         let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
         relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
@@ -89,13 +89,22 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     settled
 }
 
-/// Stops what approaches, by impulses (N s, by contact); whether they were found to rounding.
-fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack: &[f64]) -> (Short<f64>, bool) {
+/// Stops what approaches, by impulses (N s, by contact); whether they were found to rounding. The search begins with the
+/// contacts that carry one of the `loads` (N) or approach.
+fn stop_approaches(
+    bodies: &mut [Body],
+    all: Bodies,
+    (resting, loads): (&[Resting], &[f64]),
+    slack: &[f64],
+) -> (Short<f64>, bool) {
     let none = || Short::from_elem(0.0, resting.len());
     if nothing_approaches(resting, all.velocity) {
         return (none(), true);
     }
-    let stopped = velocities(all, resting);
+    // what carried the weight carries most blows too
+    let likely = |(contact, &load): (&Resting, &f64)| if approaches(contact, all.velocity) { 1.0 } else { load };
+    let guess: Short<f64> = resting.iter().zip(loads).map(likely).collect();
+    let stopped = velocities(all, resting, &guess);
     stopped.bodies.iter().zip(&stopped.vectors).for_each(|(&body, v)| bodies[body].v = *v);
     let costs = |((body, v), slack): ((&Body, &DVec3), &f64)| body.v.distance(*v) > DEAR * slack;
     let dear = bodies.iter().zip(all.velocity).zip(slack).any(costs);
@@ -110,10 +119,13 @@ fn stop_approaches(bodies: &mut [Body], all: Bodies, resting: &[Resting], slack:
 
 /// Whether nothing approaches faster than rounding makes what moves along a wall seem to.
 fn nothing_approaches(resting: &[Resting], velocity: &[DVec3]) -> bool {
-    !resting.iter().any(|contact| {
-        let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
-        relative(contact, &|body| velocity[body]).dot(contact.normal) < -BRUSH * speed
-    })
+    !resting.iter().any(|contact| approaches(contact, velocity))
+}
+
+/// Whether a contact approaches faster than rounding makes it seem to.
+fn approaches(contact: &Resting, velocity: &[DVec3]) -> bool {
+    let speed = velocity[contact.a].length() + contact.b.map_or(0.0, |b| velocity[b].length());
+    relative(contact, &|body| velocity[body]).dot(contact.normal) < -BRUSH * speed
 }
 
 /// Whether nothing approaches but by rounding, that of places too, which turns the normals of edges, corners and pairs.
