@@ -255,8 +255,8 @@ impl Simulation {
     /// Energy and this together never rise.
     pub fn hidden_energy(&self) -> f64 {
         match &self.engine {
-            Engines::Swept(engine) => engine.hidden_energy(&self.model),
-            Engines::Exact(engine) => engine.hidden_energy(&self.model),
+            Engines::Swept(engine) => engine.hidden_energy(),
+            Engines::Exact(engine) => engine.hidden_energy(),
             Engines::Paper(_) | Engines::Moreau(_) => 0.0,
         }
     }

@@ -26,6 +26,27 @@ fn faults(scene: &Scene, settings: Settings, until: f64) -> Vec<String> {
 }
 
 #[test]
+fn in_the_middle_of_a_frame_the_energy_is_that_of_its_beginning() {
+    // Bounces on a floor that rubs: each row of them is summed up at its end, in the frame that is still open.
+    let law = ContactLaw { restitution: 0.5, wall_restitution: 0.5, tangential: 0.5, rest_speed: 0.0 };
+    let floor = wall(DVec3::ZERO, DVec3::X * 40.0, DVec3::NEG_Z * 40.0);
+    let ball = |x: f64, up: f64| sphere(dvec3(x, 0.5 + up, 0.0), DVec3::X, 0.5);
+    let mut run = Simulation::new(&scene(G, law, vec![floor], vec![ball(-3.0, 0.1), ball(3.0, 0.17)]), EXACT);
+    let energy = |run: &Simulation| run.state().energy(run.model()) + run.hidden_energy();
+    let (mut before, mut summed, mut looks) = ((run.time(), energy(&run)), 0, 0);
+    while run.time() < 2.0 {
+        run.advance(Until::Time(2.0), 1);
+        let now = (run.time(), energy(&run));
+        let rounding = 64.0 * f64::EPSILON * run.initial_energy();
+        assert!(now.1 <= before.1 + rounding, "{} J became {} J at {} s", before.1, now.1, now.0);
+        assert!(now.0 > before.0 || now.1 == before.1, "{} J became {} J within a frame", before.1, now.1);
+        (summed, looks) = (summed + u32::from(run.hidden_energy() != 0.0), looks + 1);
+        before = now;
+    }
+    assert!(summed > 0 && looks > 20, "{summed} of {looks} looks saw bounces that are summed up");
+}
+
+#[test]
 fn runs_that_are_right_have_no_findings() {
     for k in 0..4 {
         for method in [Method::Exact, Method::Swept] {

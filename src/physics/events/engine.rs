@@ -65,12 +65,14 @@ struct Frame {
     goal: f64,
     /// Where the frame under way ends if nothing happens before, s.
     end: f64,
+    /// Energy at the end of the last complete frame of bounces that are summed up, J.
+    hidden_energy: f64,
 }
 
 impl Frame {
     /// The clock of frames between two of them, at `time`, s.
     fn at(time: f64) -> Frame {
-        Frame { time, step: 0.0, open: false, listed: true, goal: f64::NEG_INFINITY, end: f64::MAX }
+        Frame { time, step: 0.0, open: false, listed: true, goal: f64::NEG_INFINITY, end: f64::MAX, hidden_energy: 0.0 }
     }
 
     /// Sets the end of the frame: `dt` (s) after its beginning, and so far at least that the clock moves on.
@@ -101,6 +103,8 @@ impl<D: Detector> EventDriven<D> {
             schedule.lay_out(model, trajectories, rests);
         }
         engine.load(model, log);
+        let Mechanics { trajectories, rests, .. } = &engine.mechanics;
+        engine.frame.hidden_energy = rests.hidden_energy(model, trajectories, state.t);
         engine.mechanics.trajectories.forget_past();
         engine
     }
@@ -220,8 +224,8 @@ impl<D: Detector> EventDriven<D> {
     }
 
     /// Energy (J) at the end of the last frame of bounces that are summed up, which the state does not show.
-    pub(crate) fn hidden_energy(&self, model: &Model) -> f64 {
-        self.mechanics.rests.hidden_energy(model, &self.mechanics.trajectories, self.frame.time)
+    pub(crate) fn hidden_energy(&self) -> f64 {
+        self.frame.hidden_energy
     }
 
     /// Why a contact rests; none if it does not.
@@ -254,10 +258,14 @@ impl<D: Detector> EventDriven<D> {
         log.approaches.clear();
     }
 
-    fn close_frame(&mut self, log: &mut Log, end: f64) -> Turn {
+    fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
         let looked_at = std::mem::take(&mut self.schedule.evaluations);
         self.schedule.detector.report(self.frame.time, end, looked_at, log);
-        self.frame = Frame { time: end, step: end - self.frame.time, open: false, listed: false, ..self.frame };
+        let Mechanics { trajectories, rests, .. } = &self.mechanics;
+        // known only here: in the next frame the same contacts may have gone on
+        let hidden_energy = rests.hidden_energy(model, trajectories, end);
+        let step = end - self.frame.time;
+        self.frame = Frame { time: end, step, open: false, listed: false, hidden_energy, ..self.frame };
         log.tallies.frames += 1;
         log.tallies.inexact_time = self.mechanics.rests.curved_time(end);
         Turn::Frame
@@ -278,11 +286,11 @@ impl<D: Detector> EventDriven<D> {
         }
         if !log.contacts.is_empty() && time > now && now > self.frame.time {
             schedule.put_back((time, slot));
-            return Ok(self.close_frame(log, now));
+            return Ok(self.close_frame(model, log, now));
         }
         if time > self.frame.end {
             schedule.put_back((time, slot));
-            return Ok(self.close_frame(log, self.frame.end));
+            return Ok(self.close_frame(model, log, self.frame.end));
         }
         impacts.instant.advance_clock(trajectories, time)?;
         schedule.prefetch(trajectories);
@@ -350,7 +358,9 @@ impl<D: Detector> EventDriven<D> {
 #[cold]
 #[inline(never)]
 fn keep_approach(trajectories: &Trajectories, model: &Model, log: &mut Log, key: Key) {
-    if log.approaches.len() < MOST_APPROACHES {
+    // what meets a sphere that hops meets its hull first
+    let hops = Changed::of(key).spheres().iter().any(|&i| trajectories.hopping.holds(i));
+    if !hops && log.approaches.len() < MOST_APPROACHES {
         log.approaches.push(trajectories.approach(model, key));
     }
 }

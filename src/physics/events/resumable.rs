@@ -94,8 +94,8 @@ impl<D: Detector> Resumable<D> {
     }
 
     /// Energy of bounces that are summed up, which the state does not show, J.
-    pub(crate) fn hidden_energy(&self, model: &Model) -> f64 {
-        self.engine.hidden_energy(model)
+    pub(crate) fn hidden_energy(&self) -> f64 {
+        self.engine.hidden_energy()
     }
 }
 

@@ -37,6 +37,9 @@ impl Rests {
 
     /// Energy (J) at `time` (s) of bounces that are summed up: the state shows their mean velocity.
     pub(crate) fn hidden_energy(&self, model: &Model, trajectories: &Trajectories, time: f64) -> f64 {
+        if model.law.tangential == 1.0 {
+            return 0.0; // only bounces that rub are summed up so that the state hides some
+        }
         let of = |(&key, held): (&Key, &RestingContact)| {
             let rub = held.rub.filter(|_| held.settles_at > time)?;
             let (v, normal) =
