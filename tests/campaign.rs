@@ -74,6 +74,8 @@ fn sweep(seeds: &[(u64, u32)], check: Check) -> (Met, Vec<Failure>) {
             let failure = check(seed, halves, &mut met).err();
             if let Some(failure) = &failure {
                 tell(&failure.text);
+            } else if met.undecided > 0 {
+                tell(&format!("seed {seed}: as rounding has it"));
             } else if met.slices > LABOUR || met.cpu > 1.0 {
                 tell(&format!("seed {seed}: {} thousand turns, {} impacts, {:.1} s", met.slices, met.impacts, met.cpu));
             }

@@ -55,6 +55,8 @@ pub(crate) struct Met {
     pub(crate) very_slow: u64,
     /// Processor time, s.
     pub(crate) cpu: f64,
+    /// Scenes in other units that differed, as twins by rounding do.
+    pub(crate) undecided: u64,
     /// Sum of the hashes of the last states, modulo 2⁶⁴: the same on every machine.
     pub(crate) hash: u64,
     resting: BTreeSet<(Kind, usize, usize)>,
@@ -201,6 +203,7 @@ impl Met {
         self.slow += other.slow;
         self.very_slow += other.very_slow;
         self.cpu += other.cpu;
+        self.undecided += other.undecided;
         self.hash = self.hash.wrapping_add(other.hash);
     }
 }

@@ -31,6 +31,10 @@ impl ContactState {
             return 0.0;
         }
         let (speed, press) = (-self.v_n, -self.a_n);
+        if speed * speed > 2.0 * press * self.small_hop() {
+            // what rests for another reason, hardly pressed at the border of an edge, may have higher ones before it
+            return 0.0;
+        }
         let bounces = Bounces { e, tangential: 1.0, speed, press, slip: DVec3::ZERO, pull: DVec3::ZERO };
         bounces.ending(law.rest_speed / speed).after
     }
@@ -71,12 +75,15 @@ impl Trajectories {
     }
 
     /// Whether a sphere moves along a wall and approaches it by no more than rounding of its speed; of its place too, which
-    /// turns the normal of what has struck it, if it has moved so only since `since` (s) and has not left its place.
-    pub(super) fn grazes(&self, contact: &ContactState, since: f64) -> bool {
+    /// turns the normal of what has struck it, if it has moved so only since `since` (s) and has not left its place. If an
+    /// impact `rubs`, it takes a share of the speed however slow the approach: that must not hang on the last bit of a place.
+    pub(super) fn grazes(&self, contact: &ContactState, since: f64, rubs: bool) -> bool {
         let (kind, a, _) = contact.key;
         let (speed, size) = (self.trajectory(a).v.length(), contact.size());
         let struck_here = speed * (self.now - since) <= touching(contact.reach, size);
         let turned = if struck_here { HOP * size / contact.reach } else { 0.0 };
+        // an edge or a corner that it would pass with an overlap of no more than coordinates can tell may as well be missed
+        let turned = if rubs && !contact.flat { (2.0 * HOP * size / contact.reach).sqrt() } else { turned };
         kind == Kind::Wall && contact.v_n >= -(BRUSH + turned) * speed
     }
 

@@ -319,7 +319,7 @@ impl Mechanics {
         if curved {
             let creeps = self.rests.hurried >= HURRIED;
             let curve = Curve::new(model, (bodies, a), (contacts, &forces), (now, creeps));
-            self.set_chord(&spheres, curve.cut(pause.min(self.rubbing_time(keys) - now)));
+            self.set_chord(&spheres, curve.cut(pause.min(self.settling_time(keys) - now)));
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
             self.rests.insert_island(Island { spheres, end, curve: None }, now);
@@ -337,12 +337,6 @@ impl Mechanics {
                 (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(key.1));
             self.trajectories.rewrite(key.1, line.x, rub.end(line.v, normal));
         }
-    }
-
-    /// Time at which the first summed series of bounces of these contacts is over, s.
-    fn rubbing_time(&self, keys: &[Key]) -> f64 {
-        let held = keys.iter().map(|&key| self.rests.kept(key)).filter(|held| held.rub.is_some());
-        held.map(|held| held.settles_at).filter(|&end| end > self.trajectories.now).fold(f64::INFINITY, f64::min)
     }
 
     /// Share of its acceleration that moves on a sphere whose only contact is one of bounces that were summed up; else 1.
