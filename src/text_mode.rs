@@ -142,7 +142,7 @@ fn sentence(scene: &Scene, event: &Contact) -> String {
     match event.class {
         Class::Collide if event.impacts > 1 => {
             let (count, impulse) = (format::counted(event.impacts, "time"), format::spoken(event.impulse));
-            format!("At {time} seconds {a} hits {b} {count} in a long chain, impulse {impulse} newton seconds in all.")
+            format!("At {time} seconds {a} hits {b} {count} in a row, impulse {impulse} newton seconds in all.")
         }
         Class::Collide => {
             let (speed, impulse) = (format::spoken(event.approach_speed), format::spoken(event.impulse));

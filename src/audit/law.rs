@@ -92,7 +92,8 @@ pub(super) fn judge_place(
 
 /// The loss of tangential speed at one point of the walls is taken once: two impacts of a sphere in a row at the same
 /// point, with the same normal and at the same time, are one. What has sent it back in between is a contact of its own; one
-/// that rests may do so without a row, so that spheres which something else holds are left out.
+/// that rests may do so without a row, so that spheres which something else holds are left out; and what one row sums up has
+/// happened before.
 pub(super) fn judge_friction(
     model: &Model,
     contacts: &[Contact],
@@ -105,7 +106,7 @@ pub(super) fn judge_friction(
     }
     let impacts: Vec<&Contact> = contacts.iter().filter(|row| row.class == Class::Collide).collect();
     let is_held = |i: usize| held.iter().any(|&(kind, a, b)| a == i || (kind == Kind::Pair && b == i));
-    for (k, one) in impacts.iter().enumerate().filter(|(_, row)| row.kind == Kind::Wall) {
+    for (k, one) in impacts.iter().enumerate().filter(|(_, row)| row.kind == Kind::Wall && row.impacts == 1) {
         let near = SAME * model.radii[one.a] + ULPS * one.point.abs().max_element();
         let own = impacts[k + 1..].iter().filter(|row| touches(row, one.a));
         let again = own.take_while(|row| {

@@ -162,7 +162,7 @@ impl Recorder<'_> {
 }
 
 /// What must be said of events of which some are sums.
-const SUMMED: &str = "some rows of events stand for many impacts of a long chain at one place: their approach speeds and \
+const SUMMED: &str = "some rows of events stand for many impacts that repeat themselves: their approach speeds and \
                       impulses are sums";
 
 /// What must be said of frames whose contacts the solver left unsolved, if there are any.

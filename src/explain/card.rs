@@ -101,7 +101,7 @@ impl Of<'_> {
         let reason = self.snapshot.rest_reasons.get(self.index).copied().flatten();
         let text = match (self.contact.class, reason) {
             (Class::Collide, _) if self.contact.impacts > 1 => {
-                format!("{} impacts of a long chain at one place, summed up", self.contact.impacts)
+                format!("{} impacts that repeat themselves, summed up", self.contact.impacts)
             }
             (Class::Collide, _) => format!("v_n = {speed} m/s < −rest_speed = {limit} m/s"),
             (Class::Rest, Some(reason)) => format!("it rests: {}", reason.words()),

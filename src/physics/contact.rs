@@ -54,8 +54,8 @@ pub struct Contact {
     pub degree: f64,
     /// What the impact law made of the contact.
     pub class: Class,
-    /// How many impacts the row stands for: 1, or those of a long chain at one place that are skipped together. The speeds
-    /// and the impulse are then the sums of theirs.
+    /// How many impacts the row stands for: 1, or those of a long chain at one place, or of equal hops on a face up to its
+    /// time, which are followed together. The speeds and the impulse are then the sums of theirs.
     pub impacts: u64,
 }
 

@@ -1,6 +1,6 @@
 //! Chains of impacts at one place, however long: against the impact law blow by blow, and against its limits.
 
-use crate::support::{ELASTIC, ball, floor, go, recorded, scene, sphere, wall};
+use crate::support::{ELASTIC, ball, floor, go, recorded, room, scene, sphere, wall};
 use carom::physics::{ContactLaw, Method, Settings, Simulation};
 use carom::scene::Sphere;
 use glam::{DVec3, dvec3};
@@ -80,25 +80,34 @@ fn of_a_wedge_that_rubs_the_limit_is_a_light_ball_that_holds_the_heavy_one() {
 
 #[test]
 fn what_comes_to_rest_at_two_walls_does_not_wait_while_a_heavy_ball_drives_it_into_a_third() {
-    // In the corner of three walls the light ball approaches two of them no faster than rest_speed, and rests; the heavy one
-    // strikes it into the third ten million times meanwhile. Each time all three stop it: the heavy ball loses its approach
-    // down to rest_speed, and then rests too; nothing else changes it.
-    let (r, light, up) = (0.1, 1e-7, dvec3(0.117, 0.986, 0.117).normalize());
-    let walls = [DVec3::X, DVec3::Y, DVec3::Z].map(|n| {
-        let (along, across) = (dvec3(n.y, n.z, n.x), dvec3(n.z, n.x, n.y));
-        wall(2.0 * (along + across), along * 4.0, across * 4.0)
-    });
-    let coming = up * -0.435 + dvec3(0.1, 0.0, -0.1);
-    let small = Sphere { mass: light, ..sphere(DVec3::splat(r), DVec3::ZERO, r) };
-    let big = sphere(DVec3::splat(r) + up * (2.0 * r), coming, r);
+    // A light ball gets into the corner of a room, and a heavy one comes at it: where it approaches two of the walls no
+    // faster than rest_speed it rests, while the heavy one strikes it into the third hundreds of millions of times. The heavy
+    // one loses its approach down to rest_speed, and then rests too; nothing else changes it.
+    let small = Sphere {
+        mass: 2.514_754_975_431_319_4e-8,
+        ..sphere(
+            dvec3(4.642_917_632_733_574, -1.469_559_658_257_505, -4.748_462_131_178_252),
+            dvec3(0.304_862_245_628_241_5, -2.841_703_243_920_784, 0.820_703_548_539_224_7),
+            0.000_146_487_948_303_904_71,
+        )
+    };
+    let big = sphere(
+        dvec3(3.568_469_861_396_640_6, -4.174_013_858_534_769, 0.054_516_162_298_543_606),
+        dvec3(1.134_849_168_541_815, -2.154_528_272_285_235, -2.681_031_745_955_433_4),
+        0.000_185_140_552_984_523_11,
+    );
     let law = ContactLaw { rest_speed: 0.1, ..law(0.0, 0.0, 1.0) };
-    let mut run = recorded(&scene(DVec3::ZERO, law, walls.to_vec(), vec![small, big]), EXACT);
-    let state = go(&mut run, 1e-9);
-    let expected = coming - up * coming.dot(up);
-    let (left, off) = (state.v[0].length(), (state.v[1] - expected).length());
-    // The light ball has taken of the momentum its own share at most.
-    assert!(left <= 1e-9 && off <= 2.0 * light + 1e-11, "{left:e} m/s left, off by {off:e} m/s");
-    assert!(run.tallies().impacts as f64 > 1.0 / light, "{} impacts", run.tallies().impacts);
+    let walls = room(DVec3::splat(-5.0), DVec3::splat(5.0));
+    let mut run = recorded(&scene(DVec3::ZERO, law, walls, vec![small, big]), EXACT);
+    let before = go(&mut run, 1.885_111_07);
+    let after = go(&mut run, 1.885_111_071_922_65);
+    let normal = (after.x[1] - after.x[0]).normalize();
+    let expected = before.v[1] - normal * before.v[1].dot(normal);
+    let off = (after.v[1] - expected).length();
+    // Nothing of it is left along the normal; the light ball can have taken its own share at most, in as many strikes.
+    assert!(off <= 1e-6, "the heavy ball is off by {off:e} m/s: {} instead of {expected}", after.v[1]);
+    assert!(after.v[1].dot(normal).abs() <= 1e-9, "it still comes at {:e} m/s", after.v[1].dot(normal));
+    assert!(run.tallies().impacts > 100_000_000, "{} impacts", run.tallies().impacts);
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod exact_repeat;
 mod extremes;
 mod funnels;
 mod gas;
+mod hops;
 mod impact_law;
 mod keyframes;
 mod laws;

@@ -23,7 +23,7 @@ pub struct Golden {
 pub const GOLDEN: &[Golden] = &[
     golden("paper-0", 12.0, Method::Exact, 0x60c7bd27f7b5f1ce),
     golden("paper-1", 8.0, Method::Exact, 0xf72bbe578d8916bc),
-    golden("paper-2", 10.0, Method::Exact, 0x5b2f6326f30853e9),
+    golden("paper-2", 10.0, Method::Exact, 0x95e8bac0aac6399b),
     golden("paper-3", 8.0, Method::Exact, 0x95621590005945a8),
     golden("paper-4", 5.0, Method::Exact, 0x85d65e5db8904d3d),
     golden("zeno", 10.0, Method::Exact, 0x82fb254f7e1943ac),

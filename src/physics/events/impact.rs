@@ -15,6 +15,9 @@ impl Mechanics {
     /// Handles two bodies that touch while they approach, or are pressed together: an impact, or a rest that may begin.
     /// Returns the spheres whose motion that has changed.
     pub(super) fn meet(&mut self, model: &Model, log: &mut Log, key: Key) -> Result<Changed, Stall> {
+        if self.leave_hops(model, log, key) {
+            return Ok(Changed::of(key));
+        }
         let interrupted = self.interrupt_series(model, log, key);
         match self.met(model, log, key)? {
             Changed::Nothing if interrupted => Ok(Changed::of(key)),
@@ -31,7 +34,7 @@ impl Mechanics {
             return Ok(Changed::Nothing);
         }
         match self.verdict(model, log, &contact, since) {
-            Verdict::Collide => self.collide(model, log, &contact),
+            Verdict::Collide => self.collide(model, log, &contact, since),
             // an island that takes that back brings it again: the two are solved together then
             Verdict::Rest(_)
                 if self.trajectories.is_rounding_approach(&contact) && !self.impacts.instant.is_stuck(key) =>
@@ -63,7 +66,7 @@ impl Mechanics {
     }
 
     /// Gives both bodies of an impact their impulse. Returns the spheres whose motion that has changed.
-    fn collide(&mut self, model: &Model, log: &mut Log, contact: &ContactState) -> Result<Changed, Stall> {
+    fn collide(&mut self, model: &Model, log: &mut Log, contact: &ContactState, since: f64) -> Result<Changed, Stall> {
         let (kind, a, b) = contact.key;
         let trajectories = &mut self.trajectories;
         let target = separation_speed(contact.v_n, Class::Collide, kind, &model.law);
@@ -105,6 +108,7 @@ impl Mechanics {
             spheres.iter().try_for_each(|&i| self.trajectories.check_range(i))?;
             return Ok(Changed::Spheres(spheres));
         }
+        self.take_hops(model, contact, since);
         Ok(changed)
     }
 

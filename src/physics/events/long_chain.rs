@@ -118,7 +118,11 @@ impl Mechanics {
             let contact = self.trajectories.contact_geometry(model, key, self.trajectories.now);
             contact.gap <= HOP * contact.size()
         };
-        let beside = |&j: &usize| spheres.binary_search(&j).is_err() && spheres.iter().any(|&i| touches(i, j));
+        let beside = |&j: &usize| {
+            spheres.binary_search(&j).is_err()
+                && !self.trajectories.hopping.holds(j)
+                && spheres.iter().any(|&i| touches(i, j))
+        };
         let more: Vec<usize> = (0..model.len()).filter(beside).collect();
         if spheres.len() + more.len() <= MOST_SPHERES {
             more.iter().for_each(|&i| self.advance(model, i));

@@ -47,6 +47,7 @@ impl Mechanics {
     pub(crate) fn state_at(&self, model: &Model, t: f64) -> State {
         let mut state = self.trajectories.state_at(t);
         self.rests.arcs_into(model, &mut state);
+        self.trajectories.hopping.write_into(&mut state);
         state
     }
 

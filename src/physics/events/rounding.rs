@@ -79,7 +79,8 @@ pub(crate) const SHARED_GAP: f64 = 64.0 * f64::EPSILON;
 /// which the approach to the second wall shows before it overlaps.
 pub(crate) const SHARED_POINT: f64 = 1e-8;
 
-/// A sphere no farther than this many radii from a face has just touched it.
+/// A sphere no farther than this many radii from a face has just touched it; one that hops no higher touches it all the
+/// while.
 pub(crate) const TOUCHED_GAP: f64 = 1e-9;
 
 /// Bounces whose hops are lower than this many radii are summed up in closed form.

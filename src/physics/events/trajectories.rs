@@ -11,6 +11,7 @@
 
 use glam::DVec3;
 
+use super::hopping::Hopping;
 use super::record::{CellRef, Plan, Record, Trajectory};
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::{Model, Pull};
@@ -38,6 +39,8 @@ pub(crate) struct Trajectories {
     pub(crate) now: f64,
     /// Whether the last impacts sent bodies to and fro at one place.
     pub(crate) to_and_fro: bool,
+    /// The spheres that take the same hop again and again.
+    pub(crate) hopping: Hopping,
     /// The record of each sphere, by slot.
     pub(crate) records: Vec<Record>,
     /// The time scale of the start, s: the size of the clock's reading at its zero.
@@ -81,6 +84,7 @@ impl Trajectories {
         };
         Trajectories {
             to_and_fro: false,
+            hopping: Hopping::default(),
             now: state.t,
             records: (0..model.len()).map(record).collect(),
             time_scale: time_scale(model, state),
@@ -237,6 +241,7 @@ impl Trajectories {
     pub(crate) fn since(&self, time: f64) -> Trajectories {
         Trajectories {
             to_and_fro: self.to_and_fro,
+            hopping: self.hopping.since(time),
             now: self.now,
             records: self.records.clone(),
             time_scale: self.time_scale,
@@ -253,11 +258,13 @@ impl Trajectories {
             + size_of_val(&*self.slots)
             + size_of_val(&*self.accelerations)
             + size_of_val(&*self.past)
+            + self.hopping.bytes()
     }
 
     /// Forgets the trajectories of earlier frames, whose states can no longer be read then: a frame begins.
     pub(crate) fn forget_past(&mut self) {
         self.past.clear();
+        self.hopping.forget_past();
     }
 
     /// The state at time `t` (s) by the trajectories of now.

@@ -57,7 +57,7 @@ impl<D: Detector> Schedule<D> {
         self.catch(trajectories, slot);
         let Schedule { detector, cells, candidates, simd, .. } = self;
         let search = Search::new(model, trajectories, rests, (detector, *simd), (slot, done));
-        let mut plan = Plan::IDLE;
+        let mut plan = trajectories.hopping.plan(trajectories.sphere(slot));
         let count = match cells {
             Some(cells) => search.in_cells(cells, trajectories.records[slot].cell, None, (candidates, &mut plan)),
             None => {

@@ -57,7 +57,7 @@ impl<D: Detector> Search<'_, D> {
         let (i, r) = (self.trajectories.sphere(self.slot), self.trajectories.records[self.slot].trajectory.r);
         let mut count = 0;
         for wall in walls {
-            if self.rests.holds((Kind::Wall, i, wall)) {
+            if self.rests.holds((Kind::Wall, i, wall)) || self.trajectories.hopping.is_on(i, wall) {
                 continue;
             }
             count += 1;
@@ -190,7 +190,9 @@ impl<D: Detector> Search<'_, D> {
             self.detector.pair(&self.path, &seen, reach, self.span_before(before.min(end)))
         };
         let Some(due) = found else { return 1 };
-        if due.after == 0.0 && self.approaches_by_rounding(&seen) {
+        let now = self.trajectories.now;
+        let at_once = now + due.after <= now;
+        if at_once && (due.after == 0.0 && self.approaches_by_rounding(&seen) || self.turns_at_once(&seen)) {
             return 1;
         }
         let pair = |i: usize, j: usize| (Kind::Pair, i.min(j), i.max(j));
@@ -225,6 +227,17 @@ impl<D: Detector> Search<'_, D> {
     fn approaches_by_rounding(&self, seen: &Path) -> bool {
         let speeds = self.path.v.length() + seen.v.length();
         self.path.a == seen.a && pair_normal_velocity(self.path.x - seen.x, self.path.v - seen.v) >= -BRUSH * speeds
+    }
+
+    /// Whether the sphere and one on the path `seen`, which touch, stop their approach by themselves sooner than the clock can
+    /// tell. To part them would send what lies between two others from the one to the other for ever.
+    #[cold]
+    #[inline(never)]
+    fn turns_at_once(&self, seen: &Path) -> bool {
+        let relative = self.path.relative_to(seen);
+        let distance = relative.x.length();
+        let grows = relative.distance_acceleration(relative.x / distance, distance);
+        -pair_normal_velocity(relative.x, relative.v) <= grows * self.trajectories.clock_ulp()
     }
 
     /// Plans to meet the sphere at `other` at `time` (s) if nothing is planned before; returns 0 if the two rest on each

@@ -1,0 +1,218 @@
+//! Equal hops of a sphere on a face: many at once.
+//!
+//! Where an impact takes nothing off the wall, and nothing along it or all that there was to take, a sphere that bounces on
+//! a face takes the same hop again and again, and slides along meanwhile as if it flew: hops of 1e-11 m, which a gap of a
+//! billionth of a radius leaves, come a million times a second. So a sphere that has done the same few times in a row is
+//! taken to hop on until it may meet anything else. Meanwhile its record holds a sphere around its whole hop, half a hop
+//! above the face and larger by as much, that slides along. What meets that has the hops told, and the sphere put to where
+//! it is in its hop by then, before anything else happens: contacts and states are those of hop by hop, with less rounding.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::record::{Plan, Trajectory};
+use super::rounding::{HOP, SUM};
+use crate::physics::contact::Kind;
+use crate::physics::state::State;
+
+/// Equal hops in a row after which the next ones are taken at once; twice as many after each attempt that was cut short,
+/// up to so many that attempts cost little beside what comes before them.
+const FIRST: u32 = 4;
+const LAST: u32 = 256;
+
+/// Fewest hops that are worth it: beginning and ending cost a few events.
+pub(super) const FEWEST: u64 = 16;
+
+/// A sphere that hops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Hops {
+    /// The face, by its index.
+    pub(super) wall: usize,
+    /// Unit normal of the face, towards the sphere.
+    pub(super) normal: DVec3,
+    /// The sphere right after the impact with which the first hop begins.
+    pub(super) line: Trajectory,
+    /// Acceleration of the sphere, m/s².
+    pub(super) a: DVec3,
+    /// Speed at which each hop leaves the face, m/s.
+    pub(super) speed: f64,
+    /// Acceleration towards the face, m/s².
+    pub(super) press: f64,
+    /// Whether the wall rubs, and has no more to take: the sphere no longer slides.
+    pub(super) rubs: bool,
+    /// Number of hops until the last one is over.
+    pub(super) count: u64,
+}
+
+impl Hops {
+    /// How long a hop takes, s.
+    pub(super) fn period(&self) -> f64 {
+        2.0 * self.speed / self.press
+    }
+
+    /// How high a hop is, m.
+    pub(super) fn height(&self) -> f64 {
+        0.5 * self.speed * self.speed / self.press
+    }
+
+    /// When the last hop is over, s.
+    fn end(&self) -> f64 {
+        self.line.t + self.count as f64 * self.period()
+    }
+
+    /// Part of a vector along the face.
+    fn along(&self, u: DVec3) -> DVec3 {
+        u - self.normal * self.normal.dot(u)
+    }
+
+    /// Number of hops that are over at time `t`, s.
+    pub(super) fn done(&self, t: f64) -> u64 {
+        (((t - self.line.t) / self.period()) as u64).min(self.count)
+    }
+
+    /// The sphere at time `t`, s.
+    pub(super) fn at(&self, t: f64) -> Trajectory {
+        let since = t - self.line.t;
+        let hop = (since - self.done(t) as f64 * self.period()).clamp(0.0, self.period());
+        let [slip, pull] = self.slide();
+        let up = (self.speed - 0.5 * self.press * hop) * hop;
+        let x = self.line.x + (slip + pull * (0.5 * since)) * since + self.normal * up;
+        let v = slip + pull * since + self.normal * (self.speed - self.press * hop);
+        Trajectory { x, v, t, r: self.line.r }
+    }
+
+    /// What moves the sphere along the face: its velocity right after an impact (m/s), and its acceleration (m/s²).
+    pub(super) fn slide(&self) -> [DVec3; 2] {
+        if self.rubs { [DVec3::ZERO; 2] } else { [self.along(self.line.v), self.along(self.a)] }
+    }
+
+    /// Whether a wall that leaves the share `tangential` of what slides along it has no more to take: nothing pulls the sphere
+    /// along it, and all of the way that is left is rounding.
+    pub(super) fn is_rubbed_out(&self, tangential: f64) -> bool {
+        let pulled = self.along(self.a).length() > SUM * self.a.length();
+        !pulled && self.along(self.line.v).length() * self.period() <= (1.0 - tangential) * self.rounding()
+    }
+
+    /// Rounding of the sphere's place, m.
+    fn rounding(&self) -> f64 {
+        HOP * self.line.x.abs().max_element().max(self.line.r)
+    }
+
+    /// The sphere around all of the hop, sliding along the face.
+    pub(super) fn hull(&self) -> Trajectory {
+        let Trajectory { x, t, r, .. } = self.line;
+        let (half, [slip, _]) = (0.5 * self.height(), self.slide());
+        Trajectory { x: x + self.normal * half, v: slip, t, r: r + half + self.rounding() }
+    }
+}
+
+/// How often a sphere has bounced on a wall in a row, nothing else happening to it.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    wall: usize,
+    /// When it did last, s.
+    last: f64,
+    count: u32,
+    /// Count from which on its hops are taken at once.
+    enough: u32,
+}
+
+/// The spheres that hop.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Hopping {
+    rows: BTreeMap<usize, Row>,
+    now: BTreeMap<usize, Hops>,
+    /// Hops of this frame that are over: the sphere, its hops, and when they were over, s.
+    past: Vec<(usize, Hops, f64)>,
+}
+
+impl Hopping {
+    /// Whether a sphere hops on this wall, so that the two have no other contact.
+    #[inline]
+    pub(super) fn is_on(&self, i: usize, wall: usize) -> bool {
+        !self.now.is_empty() && self.now.get(&i).is_some_and(|hops| hops.wall == wall)
+    }
+
+    /// Whether a sphere hops.
+    #[inline]
+    pub(super) fn holds(&self, i: usize) -> bool {
+        !self.now.is_empty() && self.now.contains_key(&i)
+    }
+
+    /// What a sphere has planned if it meets nothing else: the end of its hops.
+    #[inline]
+    pub(super) fn plan(&self, i: usize) -> Plan {
+        if self.now.is_empty() {
+            return Plan::IDLE;
+        }
+        let contact = |hops: &Hops| Plan {
+            contact: hops.end(),
+            kind: Kind::Wall,
+            other: hops.wall as u32,
+            is_contact: true,
+            ..Plan::IDLE
+        };
+        self.now.get(&i).map_or(Plan::IDLE, contact)
+    }
+
+    /// Puts the spheres that hop at the time of a state of this frame to where they are in their hops.
+    pub(super) fn write_into(&self, state: &mut State) {
+        let current = self.now.iter().map(|(&i, hops)| (i, *hops));
+        let over = self.past.iter().filter(|&&(.., until)| until > state.t).map(|&(i, hops, _)| (i, hops));
+        for (i, hops) in current.chain(over).filter(|(_, hops)| hops.line.t <= state.t) {
+            let line = hops.at(state.t);
+            (state.x[i], state.v[i]) = (line.x, line.v);
+        }
+    }
+
+    /// Memory that they take beside their own size, bytes, as near as their numbers tell.
+    pub(super) fn bytes(&self) -> usize {
+        self.rows.len() * size_of::<(usize, Row)>()
+            + self.now.len() * size_of::<(usize, Hops)>()
+            + size_of_val(&*self.past)
+    }
+
+    /// Whether no sphere hops.
+    pub(super) fn is_empty(&self) -> bool {
+        self.now.is_empty()
+    }
+
+    /// Has a sphere hop on.
+    pub(super) fn put(&mut self, i: usize, hops: Hops) {
+        self.now.insert(i, hops);
+    }
+
+    /// A copy of which states from `time` (s) on can be read, and none before.
+    pub(super) fn since(&self, time: f64) -> Hopping {
+        let past = self.past.iter().filter(|&&(.., until)| until > time).copied().collect();
+        Hopping { rows: self.rows.clone(), now: self.now.clone(), past }
+    }
+
+    /// Forgets what is over.
+    pub(super) fn forget_past(&mut self) {
+        self.past.clear();
+    }
+
+    /// Counts an impact on a wall at `now` (s) of a sphere that has moved as it did since `since` (s); whether it has come
+    /// back from the same wall often enough.
+    pub(super) fn is_row(&mut self, (i, wall): (usize, usize), since: f64, now: f64) -> bool {
+        let row = self.rows.entry(i).or_insert(Row { wall, last: since, count: 0, enough: FIRST });
+        let again = row.wall == wall && row.last == since;
+        (row.wall, row.last, row.count) = (wall, now, if again { row.count.saturating_add(1) } else { 0 });
+        row.count >= row.enough
+    }
+
+    /// Ends the hops of a sphere at `now`, s; what they were.
+    pub(super) fn take(&mut self, i: usize, now: f64) -> Option<Hops> {
+        let hops = self.now.remove(&i)?;
+        self.past.push((i, hops, now));
+        let short = hops.done(now) < FEWEST;
+        if let Some(row) = self.rows.get_mut(&i) {
+            row.last = now;
+            row.enough = if short { LAST.min(2 * row.enough) } else { FIRST };
+            row.count = if short { 0 } else { FIRST };
+        }
+        Some(hops)
+    }
+}

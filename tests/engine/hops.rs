@@ -1,0 +1,83 @@
+//! Low hops that nothing damps, millions of them: followed at once, against the closed form.
+
+use crate::support::{G, floor, go, recorded, scene, sphere, wall};
+use carom::physics::{ContactLaw, Method, Settings, Simulation};
+use glam::{DVec3, dvec3};
+
+const EXACT: Settings = Settings { method: Method::Exact, dt: 0.1, tolerance: 1e-3 };
+
+/// Radius, m, and the height from which a ball begins to hop, m: as coordinates round it, 2⁻³³ exactly.
+const R: f64 = 0.25;
+const HEIGHT: f64 = 1.0 / (1_u64 << 33) as f64;
+
+/// Duration of a hop of that height, s.
+fn period() -> f64 {
+    2.0 * (2.0 * HEIGHT / -G.y).sqrt()
+}
+
+/// Elastic walls; balls that strike each other lose, or not.
+fn law(restitution: f64) -> ContactLaw {
+    ContactLaw { restitution, wall_restitution: 1.0, tangential: 1.0, rest_speed: 0.0 }
+}
+
+/// A ball that begins at the top of a hop, at `x`, m, and slides along with `v`, m/s.
+fn hopper(x: f64, v: f64) -> carom::scene::Sphere {
+    sphere(dvec3(x, R + HEIGHT, 0.0), DVec3::X * v, R)
+}
+
+fn impacts(run: &mut Simulation) -> u64 {
+    run.take_events().iter().map(carom::physics::Contact::impact_count).sum()
+}
+
+#[test]
+fn a_ball_that_hops_low_is_where_the_closed_form_says_and_has_struck_as_often() {
+    let mut run = recorded(&scene(G, law(1.0), vec![floor(20.0)], vec![hopper(-3.0, 0.5)]), EXACT);
+    let mut told = 0;
+    for k in 1..=20 {
+        let t = 0.37 * f64::from(k);
+        let state = go(&mut run, t);
+        told += impacts(&mut run);
+        // Coordinates tell a millionth of a hop.
+        let phase = (t / period() + 0.5).fract() * period();
+        let up = (0.5 * period() - phase).abs() * -G.y;
+        let height = HEIGHT - 0.5 * up * up / -G.y;
+        assert!((state.x[0].x - (-3.0 + 0.5 * t)).abs() <= 1e-14 * t.max(1.0), "x = {} at {t} s", state.x[0].x);
+        assert!((state.x[0].y - R - height).abs() <= 1e-5 * HEIGHT, "{} m up at {t} s", state.x[0].y - R);
+    }
+    // All that are over but those of the hops under way, which a row tells when they end; no energy is lost.
+    let expected = (0.37 * 20.0 / period()) as u64;
+    assert!(told <= expected + 1 && expected - told.min(expected) <= 1 << 20, "{told} of {expected} impacts told");
+    let energy = go(&mut run, 7.5).energy(run.model()) / run.initial_energy() - 1.0;
+    assert!(energy.abs() <= 64.0 * f64::EPSILON, "energy off by {energy:e}");
+}
+
+#[test]
+fn two_balls_that_hop_meet_when_they_should_and_part_as_the_law_says() {
+    for restitution in [1.0, 0.5] {
+        // Centres 2 m apart, closing at 1 m/s: they touch after 1.5 s, and exchange what restitution leaves.
+        let balls = vec![hopper(-1.0, 0.75), hopper(1.0, -0.25)];
+        let mut run = recorded(&scene(G, law(restitution), vec![floor(20.0)], balls), EXACT);
+        let state = go(&mut run, 2.5);
+        let struck: Vec<_> =
+            run.take_events().into_iter().filter(|row| row.kind == carom::physics::Kind::Pair).collect();
+        assert_eq!(struck.len(), 1, "{struck:?}");
+        assert!((struck[0].time - 1.5).abs() <= 1e-12, "they meet at {} s", struck[0].time);
+        let (mean, half) = (0.25, 0.5 * restitution);
+        for (found, expected) in state.v.iter().zip([mean - half, mean + half]) {
+            // The line of centres is off the level by no more than a hop: 1e-10 of the radius.
+            assert!((found.x - expected).abs() <= 1e-8, "{} instead of {expected} m/s", found.x);
+        }
+    }
+}
+
+#[test]
+fn a_ball_that_hops_over_the_end_of_its_floor_falls_from_there() {
+    let tile = wall(DVec3::ZERO, DVec3::X * 2.0, DVec3::Z * 2.0);
+    let mut run = recorded(&scene(G, law(1.0), vec![tile], vec![hopper(0.0, 1.0)]), EXACT);
+    let on_top = go(&mut run, 0.99);
+    assert!((on_top.x[0].y - R).abs() <= 2.0 * HEIGHT, "{} m up before the edge", on_top.x[0].y - R);
+    let beyond = go(&mut run, 1.5);
+    assert!(beyond.x[0].y < 0.0, "it is {} m up, half a second after the edge", beyond.x[0].y);
+    let energy = beyond.energy(run.model()) / run.initial_energy() - 1.0;
+    assert!(energy.abs() <= 1e-12, "energy off by {energy:e}");
+}
