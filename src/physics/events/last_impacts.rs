@@ -19,8 +19,8 @@ const TO_AND_FRO: u32 = 8;
 pub(super) struct LastImpacts {
     /// Their contacts in one word each, the one that came k-th at place k modulo their number.
     words: [u64; COMPARED],
-    /// The words of the last few once more, together, so that they are compared all at once.
-    recent: [u64; LOOKED_BACK],
+    /// The last few once more, in half a word each, so that they are compared all at once.
+    recent: [u32; LOOKED_BACK],
     /// Number of impacts so far.
     total: usize,
     /// Number of impacts before those that are compared next.
@@ -35,7 +35,7 @@ impl Default for LastImpacts {
     fn default() -> LastImpacts {
         LastImpacts {
             words: [u64::MAX; COMPARED],
-            recent: [u64::MAX; LOOKED_BACK],
+            recent: [u32::MAX; LOOKED_BACK],
             total: 0,
             before: 0,
             began: 0.0,
@@ -52,13 +52,14 @@ impl LastImpacts {
             self.began = now;
         }
         let word = word(key);
-        let last = self.words[self.total.wrapping_sub(1) % COMPARED];
+        let short = short(word);
+        let last = self.recent[self.total.wrapping_sub(1) % LOOKED_BACK];
         // without a branch for each; the same contact twice in a row is no way to and fro
-        let found = self.recent.iter().fold(0, |found, &other| found + u32::from(other == word));
-        let again = found > u32::from(last == word);
+        let found = self.recent.iter().fold(0, |found, &other| found + u32::from(other == short));
+        let again = found > u32::from(last == short);
         self.again = if again { self.again.saturating_add(1) } else { 0 };
         self.words[self.total % COMPARED] = word;
-        self.recent[self.total % LOOKED_BACK] = word;
+        self.recent[self.total % LOOKED_BACK] = short;
         self.total = self.total.wrapping_add(1);
     }
 
@@ -90,6 +91,12 @@ impl LastImpacts {
 #[inline(always)]
 fn word((kind, a, b): Key) -> u64 {
     u64::from(kind == Kind::Pair) << 63 | (a as u64) << 32 | b as u64
+}
+
+/// Half a word, which two contacts share once in billions.
+#[inline(always)]
+fn short(word: u64) -> u32 {
+    (word >> 32).wrapping_mul(0x9e37_79b1) as u32 ^ word as u32
 }
 
 /// The contact of a word.
