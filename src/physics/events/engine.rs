@@ -67,12 +67,15 @@ struct Frame {
     end: f64,
     /// Energy at the end of the last complete frame of bounces that are summed up, J.
     hidden_energy: f64,
+    /// Impacts counted up to there of hops that no row has told yet.
+    untold: u64,
 }
 
 impl Frame {
     /// The clock of frames between two of them, at `time`, s.
     fn at(time: f64) -> Frame {
-        Frame { time, step: 0.0, open: false, listed: true, goal: f64::NEG_INFINITY, end: f64::MAX, hidden_energy: 0.0 }
+        let (goal, end) = (f64::NEG_INFINITY, f64::MAX);
+        Frame { time, step: 0.0, open: false, listed: true, goal, end, hidden_energy: 0.0, untold: 0 }
     }
 
     /// Sets the end of the frame: `dt` (s) after its beginning, and so far at least that the clock moves on.
@@ -264,8 +267,9 @@ impl<D: Detector> EventDriven<D> {
         let Mechanics { trajectories, rests, .. } = &self.mechanics;
         // known only here: in the next frame the same contacts may have gone on
         let hidden_energy = rests.hidden_energy(model, trajectories, end);
-        let step = end - self.frame.time;
-        self.frame = Frame { time: end, step, open: false, listed: false, hidden_energy, ..self.frame };
+        let (step, untold) = (end - self.frame.time, trajectories.hopping.impacts(end));
+        log.tallies.impacts = (log.tallies.impacts + untold).saturating_sub(self.frame.untold);
+        self.frame = Frame { time: end, step, open: false, listed: false, hidden_energy, untold, ..self.frame };
         log.tallies.frames += 1;
         log.tallies.inexact_time = self.mechanics.rests.curved_time(end);
         Turn::Frame

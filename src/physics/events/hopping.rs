@@ -173,6 +173,11 @@ impl Hopping {
             + size_of_val(&*self.past)
     }
 
+    /// Number of impacts up to time `t` (s) of the hops under way.
+    pub(super) fn impacts(&self, t: f64) -> u64 {
+        self.now.values().map(|hops| hops.done(t)).sum()
+    }
+
     /// Whether no sphere hops.
     pub(super) fn is_empty(&self) -> bool {
         self.now.is_empty()
