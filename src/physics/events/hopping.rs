@@ -1,8 +1,8 @@
 //! Equal hops of a sphere on a face: many at once.
 //!
 //! Where an impact takes nothing off the wall, and nothing along it or all that there was to take, a sphere that bounces on
-//! a face takes the same hop again and again, and slides along meanwhile as if it flew: hops of 1e-11 m, which a gap of a
-//! billionth of a radius leaves, come a million times a second. So a sphere that has done the same few times in a row is
+//! a face takes the same hop again and again, and slides along meanwhile as if it flew: hops of 1e-12 m, as a gap of
+//! rounding leaves them, come a million times a second. So a sphere that has done the same few times in a row is
 //! taken to hop on until it may meet anything else. Meanwhile its record holds a sphere around its whole hop, half a hop
 //! above the face and larger by as much, that slides along. What meets that has the hops told, and the sphere put to where
 //! it is in its hop by then, before anything else happens: contacts and states are those of hop by hop, with less rounding.
