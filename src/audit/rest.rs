@@ -36,12 +36,12 @@ pub(super) fn judge(model: &Model, settings: &Settings, frame: &Frame, findings:
         let other = if row.kind == Kind::Pair { v(row.b) } else { DVec3::ZERO };
         let opening = (v(row.a) - other).dot(offset / distance);
         let mut slowest = slowest(model, settings, row, ([v(row.a), other], most));
-        if opening > 0.0 {
-            // what carries nothing any longer opens until its gap shows: the speed that it has come to by then
-            let pull = |i: usize| model.acceleration(i).length();
-            let both = pull(row.a) + if row.kind == Kind::Pair { pull(row.b) } else { 0.0 };
-            slowest += (2.0 * both * allowed).sqrt();
-        }
+        // what carries nothing any longer opens until its gap shows, or closes the gap that it has: the speed that it has
+        // come to by then
+        let way = if opening > 0.0 { allowed } else { gap.clamp(0.0, allowed) };
+        let pull = |i: usize| model.acceleration(i).length();
+        let both = pull(row.a) + if row.kind == Kind::Pair { pull(row.b) } else { 0.0 };
+        slowest += (2.0 * both * way).sqrt();
         // and of what lies between others, the rounding of their speeds
         findings.hold(Fault::RestSpeed, t, bodies, [opening.abs(), slowest + ULPS * fastest]);
     }

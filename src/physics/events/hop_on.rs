@@ -40,11 +40,10 @@ impl Mechanics {
         }
         let (line, a) = (*self.trajectories.trajectory(i), self.trajectories.acceleration(i));
         let speed = line.v.dot(contact.normal);
-        let (normal, press, rubs) = (contact.normal, -contact.a_n, law.tangential < 1.0);
-        let mut hops = Hops { wall, normal, line, a, speed, press, rubs, count: MOST };
+        let (normal, press, keeps) = (contact.normal, -contact.a_n, law.tangential);
+        let mut hops = Hops { wall, normal, line, a, speed, press, keeps, count: MOST };
         let low = hops.speed > law.rest_speed && hops.height() <= TOUCHED_GAP * contact.reach;
-        let alike = !rubs || hops.is_rubbed_out(law.tangential);
-        if !(low && alike && self.trajectories.hopping.is_row((i, wall), since, self.trajectories.now)) {
+        if !(low && hops.is_series() && self.trajectories.hopping.is_row((i, wall), since, self.trajectories.now)) {
             return;
         }
         let stays = time_on_face(&model.faces[wall], &hops);
@@ -90,9 +89,12 @@ impl Mechanics {
 
 /// How long the foot of a sphere that hops stays on its face, s.
 fn time_on_face(face: &Face, hops: &Hops) -> f64 {
-    let foot = hops.line.x - face.shape.center;
+    let [from, to] = hops.feet().map(|foot| foot - face.shape.center);
     let [v, a] = hops.slide();
-    let leaves = |out: DVec3| quadratic_fall([0.5 - foot.dot(out), -v.dot(out), -0.5 * a.dot(out)]);
+    let leaves = |out: DVec3| match 0.5 - to.dot(out) {
+        beyond if beyond < 0.0 => Some(0.0),
+        _ => quadratic_fall([0.5 - from.dot(out), -v.dot(out), -0.5 * a.dot(out)]),
+    };
     let [d1, d2] = [face.dual1, face.dual2];
     [d1, -d1, d2, -d2].into_iter().filter_map(leaves).fold(f64::INFINITY, f64::min)
 }

@@ -1,8 +1,9 @@
 //! Equal hops of a sphere on a face: many at once.
 //!
-//! Where an impact takes nothing off the wall, and nothing along it or all that there was to take, a sphere that bounces on
-//! a face takes the same hop again and again, and slides along meanwhile as if it flew: hops of 1e-12 m, as a gap of
-//! rounding leaves them, come a million times a second. So a sphere that has done the same few times in a row is
+//! Where an impact takes nothing off the wall, a sphere that bounces on a face takes the same hop again and again. Along the
+//! face it slides meanwhile as if it flew; or, if the wall rubs, each impact leaves the same share of what is left to slide,
+//! and the way that is left is a geometric series. Hops of 1e-12 m, as a gap of rounding leaves them, come a million times a
+//! second. So a sphere that has done the same few times in a row is
 //! taken to hop on until it may meet anything else. Meanwhile its record holds a sphere around its whole hop, half a hop
 //! above the face and larger by as much, that slides along. What meets that has the hops told, and the sphere put to where
 //! it is in its hop by then, before anything else happens: contacts and states are those of hop by hop, with less rounding.
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::record::{Plan, Trajectory};
-use super::rounding::{HOP, SUM};
+use super::rounding::{HOP, SUM, TOUCHED_GAP};
 use crate::physics::contact::Kind;
 use crate::physics::state::State;
 
@@ -20,6 +21,10 @@ use crate::physics::state::State;
 /// up to so many that attempts cost little beside what comes before them.
 const FIRST: u32 = 4;
 const LAST: u32 = 256;
+
+/// Largest energy of sliding that hops may rub away before they are told, in units of what a fall by the radius gains: no
+/// more than a tenth of what the energy of a frame may be off by.
+const UNTOLD: f64 = 1e-12;
 
 /// Fewest hops that are worth it: beginning and ending cost a few events.
 pub(super) const FEWEST: u64 = 16;
@@ -39,8 +44,8 @@ pub(super) struct Hops {
     pub(super) speed: f64,
     /// Acceleration towards the face, m/s².
     pub(super) press: f64,
-    /// Whether the wall rubs, and has no more to take: the sphere no longer slides.
-    pub(super) rubs: bool,
+    /// Share that an impact leaves of what slides along the face: 1 if the wall does not rub.
+    pub(super) keeps: f64,
     /// Number of hops until the last one is over.
     pub(super) count: u64,
 }
@@ -73,25 +78,52 @@ impl Hops {
 
     /// The sphere at time `t`, s.
     pub(super) fn at(&self, t: f64) -> Trajectory {
-        let since = t - self.line.t;
-        let hop = (since - self.done(t) as f64 * self.period()).clamp(0.0, self.period());
-        let [slip, pull] = self.slide();
+        let (since, done) = (t - self.line.t, self.done(t));
+        let hop = (since - done as f64 * self.period()).clamp(0.0, self.period());
+        let [way, slip] = self.slid(since, (done, hop));
         let up = (self.speed - 0.5 * self.press * hop) * hop;
-        let x = self.line.x + (slip + pull * (0.5 * since)) * since + self.normal * up;
-        let v = slip + pull * since + self.normal * (self.speed - self.press * hop);
-        Trajectory { x, v, t, r: self.line.r }
+        let x = self.line.x + way + self.normal * up;
+        Trajectory { x, v: slip + self.normal * (self.speed - self.press * hop), t, r: self.line.r }
     }
 
-    /// What moves the sphere along the face: its velocity right after an impact (m/s), and its acceleration (m/s²).
+    /// How far along the face the sphere has come (m), and how fast it slides (m/s), `since` the first hop began (s), so many
+    /// hops and a part of one (s) later.
+    fn slid(&self, since: f64, (done, hop): (u64, f64)) -> [DVec3; 2] {
+        let [slip, pull] = [self.along(self.line.v), self.along(self.a)];
+        if !self.rubs() {
+            return [(slip + pull * (0.5 * since)) * since, slip + pull * since];
+        }
+        let left = power(self.keeps, done);
+        [self.way() * (1.0 - left) + slip * (left * hop), slip * left]
+    }
+
+    /// Whether the wall rubs.
+    fn rubs(&self) -> bool {
+        self.keeps < 1.0
+    }
+
+    /// All the way that a wall that rubs leaves the sphere to slide, m: Σ v τᵏ T.
+    fn way(&self) -> DVec3 {
+        self.along(self.line.v) * (self.period() / (1.0 - self.keeps))
+    }
+
+    /// What moves the sphere around the hops along the face: its velocity (m/s), and its acceleration (m/s²).
     pub(super) fn slide(&self) -> [DVec3; 2] {
-        if self.rubs { [DVec3::ZERO; 2] } else { [self.along(self.line.v), self.along(self.a)] }
+        if self.rubs() { [DVec3::ZERO; 2] } else { [self.along(self.line.v), self.along(self.a)] }
     }
 
-    /// Whether a wall that leaves the share `tangential` of what slides along it has no more to take: nothing pulls the sphere
-    /// along it, and all of the way that is left is rounding.
-    pub(super) fn is_rubbed_out(&self, tangential: f64) -> bool {
+    /// Where the foot of the sphere begins, and where a wall that rubs lets it come to, m.
+    pub(super) fn feet(&self) -> [DVec3; 2] {
+        [self.line.x, if self.rubs() { self.line.x + self.way() } else { self.line.x }]
+    }
+
+    /// Whether hop follows hop as these tell: the wall does not rub; or nothing pulls the sphere along it, all of the way that
+    /// is left is less than its gap may be, and the energy that is left to rub away, untold, is rounding.
+    pub(super) fn is_series(&self) -> bool {
+        let (slip, r) = (self.along(self.line.v), self.line.r);
         let pulled = self.along(self.a).length() > SUM * self.a.length();
-        !pulled && self.along(self.line.v).length() * self.period() <= (1.0 - tangential) * self.rounding()
+        let near = self.way().length() <= TOUCHED_GAP * r;
+        !self.rubs() || (!pulled && near && 0.5 * slip.length_squared() <= UNTOLD * self.press * r)
     }
 
     /// Rounding of the sphere's place, m.
@@ -99,12 +131,25 @@ impl Hops {
         HOP * self.line.x.abs().max_element().max(self.line.r)
     }
 
-    /// The sphere around all of the hop, sliding along the face.
+    /// The sphere around all of the hop, and all of what a wall that rubs leaves it to slide, sliding along a face that does
+    /// not.
     pub(super) fn hull(&self) -> Trajectory {
-        let Trajectory { x, t, r, .. } = self.line;
-        let (half, [slip, _]) = (0.5 * self.height(), self.slide());
-        Trajectory { x: x + self.normal * half, v: slip, t, r: r + half + self.rounding() }
+        let Trajectory { t, r, .. } = self.line;
+        let ([from, to], [slip, _]) = (self.feet(), self.slide());
+        let (up, aside) = (0.5 * self.height(), 0.5 * from.distance(to));
+        Trajectory { x: (from + to) * 0.5 + self.normal * up, v: slip, t, r: r + up + aside + self.rounding() }
     }
+}
+
+/// The power xⁿ, by squares.
+fn power(x: f64, mut n: u64) -> f64 {
+    let (mut square, mut product) = (x, 1.0);
+    while n > 0 {
+        product *= if n % 2 == 1 { square } else { 1.0 };
+        square *= square;
+        n /= 2;
+    }
+    product
 }
 
 /// How often a sphere has bounced on a wall in a row, nothing else happening to it.

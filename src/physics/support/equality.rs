@@ -37,6 +37,24 @@ pub fn restore(inverse_mass: &[f64], free: &[DVec3], rows: &[Row]) -> Vec<DVec3>
     }
 }
 
+/// Solves as [`restore`] does, and again where rows are `unmet` (index, u) by that although they were left out: those come
+/// last. Taken one after another as they stand, what rounding makes new of a row that depends on such a one would stop
+/// bodies that slide along both.
+pub fn restore_unmet(
+    inverse_mass: &[f64],
+    free: &[DVec3],
+    rows: &[Row],
+    unmet: impl Fn(usize, &[DVec3]) -> bool,
+) -> Vec<DVec3> {
+    let u = restore(inverse_mass, free, rows);
+    let late: Short<usize> = (0..rows.len()).filter(|&index| unmet(index, &u)).collect();
+    if late.is_empty() {
+        return u;
+    }
+    let early = (0..rows.len()).filter(|index| !late.contains(index)).map(|index| (index, NEARLY_DEPENDENT));
+    bind_in_order(inverse_mass, free, rows, early.chain(late.iter().map(|&index| (index, DEPENDENT)))).0
+}
+
 /// Restores places and velocities (m/s) at once, as [`restore`] does: the shifts (m) that the rows with their offsets, gaps
 /// in m, ask for, and the velocities that they leave with none.
 pub fn restore_both(inverse_mass: &[f64], velocity: &[DVec3], rows: &[Row]) -> (Vec<DVec3>, Vec<DVec3>) {
@@ -52,6 +70,11 @@ pub fn restore_both(inverse_mass: &[f64], velocity: &[DVec3], rows: &[Row]) -> (
     }
     let of = |free: &[DVec3], rows: &[Row]| bind_all(inverse_mass, free, rows, NEARLY_DEPENDENT).0;
     (of(&still, rows), of(velocity, &level))
+}
+
+/// The shifts (m) that the rows with their offsets, gaps in m, ask for, of which more than `dependent` is new.
+pub fn restore_places(inverse_mass: &[f64], rows: &[Row], dependent: f64) -> Vec<DVec3> {
+    bind_all(inverse_mass, &vec![DVec3::ZERO; inverse_mass.len()], rows, dependent).0
 }
 
 /// Solves as [`bind`] does for a single row, by far the most frequent case, in closed form: λ = −(J u₀ + c)/A.
@@ -72,12 +95,24 @@ fn bind_one(inverse_mass: &[f64], free: &[DVec3], row: &Row) -> (Vec<DVec3>, Vec
     (u, vec![total])
 }
 
-/// The projection of u₀ onto all rows, as the active set does it with those that hold: weighted by √m, from Q R of the
-/// rows' columns. For unlike masses and rows that nearly depend on others; else [`gram`] is quicker.
+/// The projection of u₀ onto all rows of which more than `dependent` is new, as the active set does it with those that hold.
+/// For unlike masses and rows that nearly depend on others; else [`gram`] is quicker.
 fn bind_all(inverse_mass: &[f64], free: &[DVec3], rows: &[Row], dependent: f64) -> (Vec<DVec3>, Vec<f64>) {
+    bind_in_order(inverse_mass, free, rows, (0..rows.len()).map(|index| (index, dependent)))
+}
+
+/// The projection of u₀ onto the rows with these indices, taken in this order, each if more than its share is new: weighted
+/// by √m, from Q R of the rows' columns.
+fn bind_in_order(
+    inverse_mass: &[f64],
+    free: &[DVec3],
+    rows: &[Row],
+    order: impl Iterator<Item = (usize, f64)>,
+) -> (Vec<DVec3>, Vec<f64>) {
     let mut factor = Factor::default();
     let (mut holding, mut right) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
-    for (index, row) in rows.iter().enumerate() {
+    for (index, dependent) in order {
+        let row = &rows[index];
         let weight = inverse_mass[row.a] + row.b.map_or(0.0, |b| inverse_mass[b]);
         let length = (weight * row.normal.length_squared()).sqrt();
         if factor.append(column(inverse_mass, row, length), dependent) == Append::Added {

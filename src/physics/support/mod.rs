@@ -43,7 +43,7 @@ mod short;
 mod solution;
 mod solve;
 
-pub use equality::{bind, restore, restore_both};
+pub use equality::{bind, restore, restore_both, restore_places, restore_unmet};
 pub use island::{Island, islands};
 pub use problem::Row;
 pub use resting::{Bodies, Fate, Held, Resting, Surface, accelerations, hold, velocities};

@@ -8,7 +8,7 @@ use super::bodies::Body;
 /// no less than [`FINEST`].
 pub(super) const DEPARTURE: f64 = 5e-13;
 
-/// Least departure of a chord from the path, relative to the coordinates: 16 ulp.
+/// What coordinates tell apart, least departure of a chord from the path, relative to them: 16 ulp.
 const FINEST: f64 = 16.0 * f64::EPSILON;
 
 /// The bodies at one end of an arc, and their accelerations, m/s².
@@ -51,8 +51,13 @@ impl Body {
         self.r.max(self.x.abs().max_element())
     }
 
+    /// What coordinates tell apart of the body's places, m.
+    pub(super) fn finest(&self) -> f64 {
+        FINEST * self.size()
+    }
+
     /// How far a chord may be from its path, m.
     pub(super) fn departure(&self) -> f64 {
-        (DEPARTURE * self.r).max(FINEST * self.size())
+        (DEPARTURE * self.r).max(self.finest())
     }
 }

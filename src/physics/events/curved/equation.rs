@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::bodies::{Body, Closed, On, geometry};
-use crate::physics::support::{Row, Short, bind, restore, restore_both};
+use crate::physics::events::rounding::{BRUSH, SUM};
+use crate::physics::support::{Row, Short, bind, restore, restore_both, restore_places, restore_unmet};
 use crate::physics::wall_parts::{BORDER, room};
 
 /// How fast an idle contact may close, in units of the applied acceleration, before its island is settled anew: more than
@@ -24,6 +25,11 @@ const SUNK: f64 = 1e-13;
 
 /// Deepest overlap that is healed, in radii; deeper ones are the scene's.
 const HEALED: f64 = 1e-10;
+
+/// How far a body may be moved to put gaps right, in units of the widest of them; else the rows of which less than the
+/// inverse of this is new are left as they are. Three spheres that just fit between two walls, 1e-5 rad off their line,
+/// would move by a hundred thousand times what rounding has left of their gaps, into others.
+const LEVER: f64 = 1e3;
 
 /// How an arc is integrated: the shorter it is, the lower the order that is exact to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,16 +112,40 @@ impl<'a> ConstrainedMotion<'a> {
         let velocity: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let mut rows = self.rows(bodies, |gap, _| gap);
         rows.iter_mut().zip(&self.gaps).for_each(|(row, gap)| row.offset -= gap);
-        let (shift, v) = restore_both(&self.inverse_mass, &velocity, &rows);
+        let (mut shift, v) = restore_both(&self.inverse_mass, &velocity, &rows);
+        let off = rows.iter().map(|row| row.offset.abs()).fold(0.0, f64::max);
+        let is_far = |(body, shift): (&Body, &DVec3)| shift.length() > body.finest().max(LEVER * off);
+        if bodies.iter().zip(&shift).any(is_far) {
+            shift = restore_places(&self.inverse_mass, &rows, 1.0 / LEVER);
+        }
         for (body, (shift, v)) in bodies.iter_mut().zip(shift.into_iter().zip(v)) {
             (body.x, body.v) = (body.x + shift, v);
         }
+        self.close_unmet(bodies, &rows);
     }
 
     /// Puts the velocities back on the holding contacts: J v = 0.
     pub(crate) fn restore_velocities(&self, bodies: &mut [Body]) {
         let velocity: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let v = restore(&self.inverse_mass, &velocity, &self.rows(bodies, |_, _| 0.0));
+        let rows = self.rows(bodies, |_, _| 0.0);
+        let v = restore(&self.inverse_mass, &velocity, &rows);
+        bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+        self.close_unmet(bodies, &rows);
+    }
+
+    /// Closes the rows of velocities just restored that were left out as nearly dependent, where their loads would work:
+    /// next to where spheres just fit, loads of 1e9 N make much of what rounding leaves of a normal velocity.
+    fn close_unmet(&self, bodies: &mut [Body], rows: &[Row]) {
+        let velocity: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let v_n = |row: &Row, v: &[DVec3]| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])).abs();
+        let fastest = velocity.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
+        if rows.iter().all(|row| v_n(row, &velocity) <= BRUSH * fastest) {
+            return;
+        }
+        let (forces, power) = (self.accelerations(bodies).1, power(bodies));
+        let unmet = |index: usize, v: &[DVec3]| forces[index] * v_n(&rows[index], v) > SUM * power;
+        let level: Short<Row> = rows.iter().map(|row| Row { offset: 0.0, ..*row }).collect();
+        let v = restore_unmet(&self.inverse_mass, &velocity, &level, unmet);
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
     }
 
@@ -188,6 +218,13 @@ pub(crate) struct Marks {
 /// Largest applied acceleration, m/s²: the unit of loads.
 pub(crate) fn pull(bodies: &[Body]) -> f64 {
     bodies.iter().map(|body| body.applied.length()).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// What may change the energy of an island, W: Σ m (|applied| + v²/r) |v|.
+pub(crate) fn power(bodies: &[Body]) -> f64 {
+    let of =
+        |body: &Body| (body.applied.length() + body.v.length_squared() / body.r) * body.v.length() / body.inverse_mass;
+    bodies.iter().map(of).sum()
 }
 
 /// A contact as a row; its offset is chosen from (gap in m, k in m/s²).

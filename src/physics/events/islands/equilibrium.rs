@@ -8,12 +8,17 @@
 use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
-use crate::physics::events::curved::equation::{BARELY, OPENED, pull};
+use crate::physics::events::curved::equation::{BARELY, OPENED, power, pull};
 use crate::physics::events::rounding::{BRUSH, HOP, SUM};
-use crate::physics::support::{Bodies, Fate, Resting, Row, Short, Surface, accelerations, bind, restore, velocities};
+use crate::physics::support::{
+    Bodies, Fate, Resting, Row, Short, Surface, accelerations, restore, restore_unmet, velocities,
+};
 
 /// Cost of stopping what opens by no more than rounding, in units of that rounding, above which it is not stopped.
 const DEAR: f64 = 10.0;
+
+/// Most times that an island's accelerations are solved because to clear its velocities closed what had opened.
+const ROUNDS: usize = 4;
 
 /// An island after both complementarity problems.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,15 +54,6 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
     let slack: Short<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
     let (impulses, stopped) = stop_approaches(bodies, all, (&resting, loads), &slack);
-    let opens = |contact: &Resting| {
-        let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
-        relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
-    };
-    let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
-    let touching: Short<Resting> = closed.iter().map(|&index| resting[index]).collect();
-    let after: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
-    let guess: Short<f64> = closed.iter().map(|&index| loads[index]).collect();
-    let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];
         change(contact.a) || contact.b.is_some_and(change)
@@ -70,20 +66,18 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
         forces: vec![0.0; contacts.len()],
         fate: Short::from_elem(Fate::Opening, contacts.len()),
         curved: false,
-        converged: stopped && held.converged(),
+        converged: stopped,
     };
-    for (place, &body) in held.bodies.iter().enumerate() {
-        settled.a[body] = held.vectors[place];
+    for _ in 0..ROUNDS {
+        settled.hold(bodies, all, (&resting, &gaps), (loads, &slack));
+        let closed = settled.clear_normal_velocity(bodies, &inverse_mass, &resting, &slack);
+        if !closed
+            .iter()
+            .any(|&index| settled.opening(&resting[index], bodies) < -settled.noise(&resting[index], bodies))
+        {
+            break;
+        }
     }
-    for (place, &index) in closed.iter().enumerate() {
-        settled.forces[index] = held.multipliers[place];
-    }
-    let turns = |contact: &Resting| settled.turns(contact, bodies);
-    settled.curved = closed.iter().any(|&index| settled.forces[index] > 0.0 && turns(&resting[index]));
-    for &index in &closed {
-        settled.fate[index] = settled.fate_of(index, (&resting[index], gaps[index]), bodies);
-    }
-    settled.clear_normal_velocity(bodies, &inverse_mass, &resting, &slack);
     settled.stop(bodies, tick);
     settled.let_go(bodies, &resting);
     settled
@@ -163,6 +157,38 @@ fn relative(contact: &Resting, u: &dyn Fn(usize) -> DVec3) -> DVec3 {
 }
 
 impl Settled {
+    /// Finds which of the contacts that are closed hold, and how the island moves.
+    fn hold(
+        &mut self,
+        bodies: &[Body],
+        all: Bodies,
+        (resting, gaps): (&[Resting], &[f64]),
+        (loads, slack): (&[f64], &[f64]),
+    ) {
+        let opens = |contact: &Resting| {
+            let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
+            relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
+        };
+        let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
+        let touching: Short<Resting> = closed.iter().map(|&index| resting[index]).collect();
+        let after: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let guess: Short<f64> = closed.iter().map(|&index| loads[index]).collect();
+        let held = accelerations(Bodies { velocity: &after, ..all }, &touching, &guess);
+        self.converged &= held.converged();
+        self.fate.fill(Fate::Opening);
+        self.forces.fill(0.0);
+        for (place, &body) in held.bodies.iter().enumerate() {
+            self.a[body] = held.vectors[place];
+        }
+        for (place, &index) in closed.iter().enumerate() {
+            self.forces[index] = held.multipliers[place];
+        }
+        self.curved = closed.iter().any(|&index| self.forces[index] > 0.0 && self.turns(&resting[index], bodies));
+        for &index in &closed {
+            self.fate[index] = self.fate_of(index, (&resting[index], gaps[index]), bodies);
+        }
+    }
+
     /// What becomes of a contact that is closed, but for its gap (m).
     fn fate_of(&self, index: usize, (contact, gap): (&Resting, f64), bodies: &[Body]) -> Fate {
         if self.forces[index] > 0.0 {
@@ -222,18 +248,28 @@ impl Settled {
     /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
     /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
     /// push one body alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
-    /// stand still on both would stop the motion along them, and the one that opens lets go instead.
-    fn clear_normal_velocity(&mut self, bodies: &mut [Body], inverse_mass: &[f64], resting: &[Resting], slack: &[f64]) {
+    /// stand still on both would stop the motion along them, and the one that opens lets go instead. Returns the contacts
+    /// that were open and are closed by that.
+    fn clear_normal_velocity(
+        &mut self,
+        bodies: &mut [Body],
+        inverse_mass: &[f64],
+        resting: &[Resting],
+        slack: &[f64],
+    ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let mut holds: Short<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
         let mut v = before.to_vec();
         // of what keeps its velocity what is left of it would add up for as long as it slides along its walls
         let steady = !self.curved && self.a.iter().all(|a| *a == DVec3::ZERO);
+        let power = power(bodies);
         let precision = |contact: &Resting| if steady && contact.b.is_none() { BRUSH } else { SUM };
         loop {
-            let rows = rows(resting.iter().zip(&holds).filter(|(_, holds)| **holds).map(|(contact, _)| contact));
+            let held: Short<usize> = (0..holds.len()).filter(|&index| holds[index]).collect();
+            let rows = rows(held.iter().map(|&index| &resting[index]));
             if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
-                v = bind(inverse_mass, &before, &rows).0;
+                let unmet = |place: usize, v: &[DVec3]| self.is_unmet(held[place], &resting[held[place]], v, power);
+                v = restore_unmet(inverse_mass, &before, &rows, unmet);
             }
             let approaches = |index: usize| {
                 let contact = &resting[index];
@@ -255,15 +291,28 @@ impl Settled {
         let opening: Short<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
         if !opening.is_empty() && v.iter().enumerate().any(costs) {
             opening.into_iter().for_each(|index| self.fate[index] = Fate::Opening);
-            return;
+            return Short::new();
         }
         bodies.iter_mut().zip(v).for_each(|(body, v)| body.v = v);
+        let mut closed = Short::new();
         for index in (0..holds.len()).filter(|&index| holds[index]) {
             // what accelerates apart does so whatever rounding has made of its velocity: on parabolas nothing looks again
             let parts = !self.curved && self.opening(&resting[index], bodies) > self.noise(&resting[index], bodies);
             if self.fate[index] == Fate::Opening && !parts {
                 self.fate[index] = Fate::Idle;
+                closed.push(index);
             }
+        }
+        closed
+    }
+
+    /// Whether a contact that holds is not closed at these velocities (m/s): its load would work more than rounding of all
+    /// the `power` (W) that moves the island, or it would be pressed in.
+    fn is_unmet(&self, index: usize, contact: &Resting, v: &[DVec3], power: f64) -> bool {
+        let v_n = relative(contact, &|body| v[body]).dot(contact.normal);
+        match self.fate[index] {
+            Fate::Loaded => self.forces[index] * v_n.abs() > SUM * power,
+            Fate::Idle | Fate::Opening => approaches(contact, v),
         }
     }
 
