@@ -36,7 +36,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{Failure, Generator, Met};
 use mended::{
-    LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES, MENDED_UNITS,
+    LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_HEAPS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES,
+    MENDED_UNITS,
 };
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
@@ -150,6 +151,7 @@ fn small_scenes_that_ever_failed_or_went_on_for_ever_stay_mended() {
         (&MENDED_STACKS, &STACKS),
         (&MENDED_JOINTS, &JOINTS),
         (&MENDED_CROWDS, &CROWDS),
+        (&MENDED_HEAPS, &HEAPS),
     ];
     for (seeds, generator) in mended {
         let (_, failures) = sweep(seeds, &|seed, halves, met| judged::check(generator, seed, halves, met));

@@ -226,4 +226,32 @@ mod tests {
         let shift = restore(&[1.0], &[DVec3::ZERO], &rows)[0];
         assert!(shift.distance(DVec3::new(-1e-16, -2e-16, 0.0)) < 1e-30, "{shift}");
     }
+
+    #[test]
+    fn a_row_that_was_left_out_is_closed_where_it_is_unmet_and_stops_no_other() {
+        // Between two rows that oppose each other within 2e-9 rad lies a body that leaves the one by 1e-14 m/s, which is 1e-5
+        // m/s across them; another slides along a row of its own.
+        let lever = 1e-9;
+        let row = |a: usize, normal: DVec3| Row { a, b: None, normal, offset: 0.0 };
+        let rows = [
+            row(0, DVec3::new(1.0, 0.0, lever)),
+            row(0, DVec3::new(-1.0, 0.0, lever)),
+            row(1, DVec3::new(0.0, 1.0, 0.0)),
+        ];
+        let free = [DVec3::new(0.0, 0.5, 1e-5), DVec3::new(0.7, 1e-16, 0.0)];
+        let left = restore_unmet(&[1.0, 1.0], &free, &rows, |_, _| false);
+        assert!(
+            (left[0].z / 1e-5 - 1.0).abs() < 1e-6,
+            "no more than a share of 1e-5 is new of the second row: {}",
+            left[0]
+        );
+        let closed =
+            restore_unmet(&[1.0, 1.0], &free, &rows, |index, u| rows[index].normal.dot(u[rows[index].a]).abs() > 1e-15);
+        for (u, [y, slides]) in closed.iter().zip([[0.5, 0.0], [0.0, 0.7]]) {
+            // an ulp of the speeds; across the two rows, over their angle
+            assert!((u.x - slides).abs() <= 1e-15 && (u.y - y).abs() <= 1e-15 && u.z.abs() <= 1e-15 / lever, "{u}");
+        }
+        let met = |row: &Row| row.normal.dot(closed[row.a]).abs() <= 1e-15;
+        assert!(rows.iter().all(met), "{closed:?}");
+    }
 }

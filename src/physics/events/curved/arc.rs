@@ -26,8 +26,7 @@ const FIRST: f64 = 0.05;
 
 /// Length of the arc after something has happened, in units of the time in which the motion changes: it nearly always
 /// happens again before that is over, up to a million times a second. One more look at the accelerations tells how they
-/// grow meanwhile; x is off by less than 1e-17 radii then, and v by 1e-13 radii per unit of time at its end, as the square
-/// of the time before.
+/// grow; x is off by less than 1e-17 radii then, and v by 1e-13 radii per unit of time, as the square of the time.
 const BRIEFEST: f64 = 1e-4;
 
 /// Length of the arc after [`BRIEFEST`], in units of the time in which the motion changes: it costs a quarter of a longer
@@ -48,9 +47,18 @@ const BEGINNING: f64 = 1e-3;
 const LONGEST: f64 = 0.2;
 
 /// Length of an arc that is not halved any more, in units of the time in which the motion changes: its polynomial is off by
-/// the sixth power of that, and what is still found beyond is the rounding of the contacts' own equations. Two edges of a
-/// narrow crack hold a sphere across it to no better than rounding over the angle between their normals.
+/// the sixth power of that, and what is still found beyond is the rounding of the contacts' own equations, as where two edges
+/// of a narrow crack hold a sphere across it: rounding over the angle between their normals.
 const SHORT: f64 = 1e-3;
+
+/// Growth from which on that holds: the polynomial is off by 1e-12 radii. Worse is no rounding but where spheres that just
+/// fit come into line and forces grow beyond all bounds: halved further, to this length.
+const ROUGH: f64 = 0.32;
+const SHORTEST: f64 = 1e-10;
+
+/// Largest change of acceleration during a brief arc, in radii per square of the time in which the motion changes: fifty
+/// times what that is where nothing is about to come into line.
+const STEEP: f64 = 0.05;
 
 /// Fractions of an arc at which its end conditions are looked at: a load that dips below 0 between two of them and comes
 /// back would have to vary faster than the arc was chosen for.
@@ -134,22 +142,27 @@ impl Arc {
         motion.restore_velocities(&mut bodies);
         let start = Ends { a: motion.accelerations(&bodies).0, bodies };
         let scale = start.time_scale();
-        let Some(span) = span else { return Arc::brief(start, &motion, BRIEF * scale, loaded) };
-        let mut span = if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale };
-        // The error falls with the sixth power, so that a second try nearly always does.
+        let (start, mut span) = match span {
+            None => match Arc::brief(start, &motion, BRIEF * scale, &loaded) {
+                Ok(arc) => return arc,
+                Err(start) => (start, SOON * BRIEF * scale),
+            },
+            Some(span) => (start, if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale }),
+        };
+        // a second try nearly always does
         for _ in 0..30 {
             let bodies = motion.step_rkf8(start.moving(), span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let mut arc = Arc::between(start.clone(), end, span, (loaded.clone(), Order::Eight));
-            let growth = cube_root(arc.allowance(&motion).sqrt());
+            let growth = arc.growth(&motion);
             arc.next = span * (0.8 * growth).min(2.0);
-            if growth >= 1.0 || span <= SHORT * scale {
+            if growth >= if span <= SHORT * scale { ROUGH } else { 1.0 } || span <= SHORTEST * scale {
                 arc.cut_short(&motion, &LOOKS);
                 return arc;
             }
             span *= (0.8 * growth).max(0.05);
         }
-        // Out of reach of numbers: no motion at all, which the watchdog of the method will notice.
+        // out of reach of numbers: no motion at all, which the method's watchdog notices
         Arc { changes: true, ..Arc::between(start.clone(), start, 0.0, (loaded, Order::Four)) }
     }
 
@@ -169,19 +182,30 @@ impl Arc {
         let bodies: Vec<Body> = ahead.iter().zip(&start.a).zip(&a).map(grown).collect();
         let before = motion.marks(&start.bodies, &start.a);
         let holds = motion.margin(&bodies, (&a, &forces), &before) >= 0.0;
-        let end = Ends { bodies, a };
-        holds.then(|| Arc::between(start.clone(), end, span, (loaded.to_vec(), Order::Three)))
+        let arc = Arc::between(start.clone(), Ends { bodies, a }, span, (loaded.to_vec(), Order::Three));
+        (holds && !arc.is_steep()).then_some(arc)
     }
 
-    /// An arc so short that neither its integration nor its polynomial needs looking at. Where a contact changes on the way
-    /// but not soon, the arc ends before: most of these arcs are interrupted long before, and when that is need not be
-    /// found.
-    fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: Vec<bool>) -> Arc {
+    /// Whether accelerations change by more than a share of what moves the bodies by a radius in the time in which the motion
+    /// changes: a brief arc is too long then.
+    fn is_steep(&self) -> bool {
+        let scale = self.start.time_scale();
+        let changes = self.start.a.iter().zip(&self.end.a).map(|(from, to)| from.distance(*to));
+        changes.zip(&self.start.bodies).any(|(change, body)| !(change * scale * scale <= STEEP * body.r))
+    }
+
+    /// An arc so short that neither its integration nor its polynomial needs looking at while the contacts hold. Where one
+    /// changes on the way but not soon, the arc ends before: most of these arcs are interrupted long before, and when that
+    /// is need not be found. Gives its start back where on the way the equation is none.
+    fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: &[bool]) -> Result<Arc, Ends> {
         let bodies = motion.step_rk4(start.moving(), span);
         let (a, forces) = motion.accelerations(&bodies);
         let before = motion.marks(&start.bodies, &start.a);
         let holds = motion.margin(&bodies, (&a, &forces), &before) >= 0.0;
-        let mut arc = Arc::between(start, Ends { bodies, a }, span, (loaded, Order::Four));
+        let mut arc = Arc::between(start, Ends { bodies, a }, span, (loaded.to_vec(), Order::Four));
+        if (!holds || arc.is_steep()) && arc.growth(motion) < ROUGH {
+            return Err(arc.start);
+        }
         if !holds {
             if motion.distance_to_change(&arc.at(SOON * span), &before) >= 0.0 {
                 arc.length = SOON * span;
@@ -189,7 +213,12 @@ impl Arc {
                 arc.cut_short(motion, &[SOON]);
             }
         }
-        arc
+        Ok(arc)
+    }
+
+    /// By how much the arc might be longer: the error falls with the sixth power.
+    fn growth(&self, motion: &ConstrainedMotion) -> f64 {
+        cube_root(self.allowance(motion).sqrt())
     }
 
     /// How many times the error in the middle fits into what is allowed. The error of the polynomial is x⁽⁶⁾/720 s³ (h −
