@@ -60,10 +60,7 @@ impl<D: Detector> Schedule<D> {
         let mut plan = trajectories.hopping.plan(trajectories.sphere(slot));
         let count = match cells {
             Some(cells) => search.in_cells(cells, trajectories.records[slot].cell, None, (candidates, &mut plan)),
-            None => {
-                let others = (0..model.len()).filter(|&other| other != slot);
-                search.all_walls(&mut plan) + others.map(|other| search.pair(other, &mut plan)).sum::<u64>()
-            }
+            None => search.everywhere(&mut plan),
         };
         self.evaluations += count;
         self.wear.look(count);
@@ -129,6 +126,15 @@ impl<'a, D: Detector> Search<'a, D> {
         Search { model, trajectories, rests, detector, simd, slot, done, path, until, way }
     }
 
+    /// Looks at all other spheres and all walls; returns how many.
+    fn everywhere(&self, plan: &mut Plan) -> u64 {
+        let pairs = |plan: &mut Plan| {
+            let others = (0..self.trajectories.records.len()).filter(|&other| other != self.slot);
+            others.map(|other| self.pair(other, plan)).sum::<u64>()
+        };
+        if D::PAIRS_FIRST { pairs(plan) + self.all_walls(plan) } else { self.all_walls(plan) + pairs(plan) }
+    }
+
     /// Looks at the spheres around the sphere's cell and at the walls near it, or only at those that came within reach when
     /// it went `way`; and when it will leave its cell. Returns how many it looked at.
     fn in_cells(
@@ -139,7 +145,7 @@ impl<'a, D: Detector> Search<'a, D> {
         (candidates, plan): (&mut Candidates, &mut Plan),
     ) -> u64 {
         cells.look(cell, way, candidates, self.trajectories.records.len());
-        // what it is to meet soon of what is cheap to look at spares the rest a long search
+        // what it is to meet soon of what is cheap to look at spares the rest a long search, here as in `everywhere`
         let mut count = if D::PAIRS_FIRST { self.pairs(candidates, plan) } else { 0 };
         if cell.is_loose() {
             count += self.all_walls(plan);
