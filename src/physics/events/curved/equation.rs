@@ -202,8 +202,12 @@ impl<'a> ConstrainedMotion<'a> {
             let closing = IDLE + opening - before.min(0.0);
             closing.min(BARELY + before.max(0.0) - opening)
         });
-        let sunk = |(gap, before): (f64, &f64)| (gap - before.min(0.0) + SUNK).min(OPENED + before.max(0.0) - gap);
-        let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).map(sunk);
+        // what has sunk in sinks no farther, or arc by arc it would go on
+        let least = |before: f64, body: &Body| (-SUNK).min(before - body.finest() / body.r);
+        let sunk = |((gap, before), contact): ((f64, &f64), &Closed)| {
+            (gap - least(*before, &bodies[contact.a])).min(OPENED + before.max(0.0) - gap)
+        };
+        let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).zip(&self.idle).map(sunk);
         loads.chain(rooms).chain(idle).chain(gaps).fold(f64::INFINITY, f64::min)
     }
 }

@@ -258,31 +258,7 @@ impl Settled {
         slack: &[f64],
     ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let mut holds: Short<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
-        let mut v = before.to_vec();
-        // of what keeps its velocity what is left of it would add up for as long as it slides along its walls
-        let steady = !self.curved && self.a.iter().all(|a| *a == DVec3::ZERO);
-        let power = power(bodies);
-        let precision = |contact: &Resting| if steady && contact.b.is_none() { BRUSH } else { SUM };
-        loop {
-            let held: Short<usize> = (0..holds.len()).filter(|&index| holds[index]).collect();
-            let rows = rows(held.iter().map(|&index| &resting[index]));
-            if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
-                let unmet = |place: usize, v: &[DVec3]| self.is_unmet(held[place], &resting[held[place]], v, power);
-                v = restore_unmet(inverse_mass, &before, &rows, unmet);
-            }
-            let approaches = |index: usize| {
-                let contact = &resting[index];
-                let noise = precision(contact) * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
-                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
-                may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
-            };
-            let new: Short<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
-            if new.is_empty() {
-                break;
-            }
-            new.into_iter().for_each(|index| holds[index] = true);
-        }
+        let (v, holds) = self.cleared(&before, inverse_mass, resting, power(bodies));
         let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
         let opens = |index: usize| {
             let noise = SUM * before[resting[index].a].length();
@@ -304,6 +280,41 @@ impl Settled {
             }
         }
         closed
+    }
+
+    /// Velocities (m/s, by body) without what rounding left of those along the normals, and which contacts hold then: those
+    /// that carry, and those that would approach. The `power` that moves the island, W, tells what rounding is.
+    fn cleared(
+        &self,
+        before: &[DVec3],
+        inverse_mass: &[f64],
+        resting: &[Resting],
+        power: f64,
+    ) -> (Vec<DVec3>, Short<bool>) {
+        let mut holds: Short<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
+        let mut v = before.to_vec();
+        // of what keeps its velocity what is left of it would add up for as long as it slides along its walls
+        let steady = !self.curved && self.a.iter().all(|a| *a == DVec3::ZERO);
+        let precision = |contact: &Resting| if steady && contact.b.is_none() { BRUSH } else { SUM };
+        loop {
+            let held: Short<usize> = (0..holds.len()).filter(|&index| holds[index]).collect();
+            let rows = rows(held.iter().map(|&index| &resting[index]));
+            if rows.iter().any(|row| row.normal.dot(v[row.a] - row.b.map_or(DVec3::ZERO, |b| v[b])) != 0.0) {
+                let unmet = |place: usize, v: &[DVec3]| self.is_unmet(held[place], &resting[held[place]], v, power);
+                v = restore_unmet(inverse_mass, before, &rows, unmet);
+            }
+            let approaches = |index: usize| {
+                let contact = &resting[index];
+                let noise = precision(contact) * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
+                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
+                may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
+            };
+            let new: Short<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
+            if new.is_empty() {
+                return (v, holds);
+            }
+            new.into_iter().for_each(|index| holds[index] = true);
+        }
     }
 
     /// Whether a contact that holds is not closed at these velocities (m/s): its load would work more than rounding of all
