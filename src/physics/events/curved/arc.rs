@@ -51,9 +51,10 @@ const LONGEST: f64 = 0.2;
 /// of a narrow crack hold a sphere across it: rounding over the angle between their normals.
 const SHORT: f64 = 1e-3;
 
-/// Growth from which on that holds: the polynomial is off by 1e-12 radii. Worse is no rounding but where spheres that just
-/// fit come into line and forces grow beyond all bounds: halved further, to this length.
+/// Growth from which on that holds: the polynomial is off by 1e-12 radii. Below, spheres that just fit come into line.
 const ROUGH: f64 = 0.32;
+
+/// Length of an arc that is not halved even there, in units of the time in which the motion changes.
 const SHORTEST: f64 = 1e-10;
 
 /// Largest change of acceleration during a brief arc, in radii per square of the time in which the motion changes: fifty
@@ -149,7 +150,6 @@ impl Arc {
             },
             Some(span) => (start, if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale }),
         };
-        // a second try nearly always does
         for _ in 0..30 {
             let bodies = motion.step_rkf8(start.moving(), span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
