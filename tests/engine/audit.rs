@@ -153,6 +153,21 @@ fn what_does_not_rest_is_found() {
 }
 
 #[test]
+fn what_rests_may_close_its_gap_as_fast_as_it_falls_and_no_faster() {
+    let bounce = bounce(PAPER_LAW);
+    let rest = Contact { class: Class::Rest, approach_speed: 0.0, separation_speed: 0.0, impulse: 0.0, ..bounce.row };
+    let closing = |gap: f64, v: f64| {
+        let mut state = bounce.after.clone();
+        (state.x[0].y, state.v[0]) = (0.5 + gap, DVec3::NEG_Y * v);
+        bounce.found(&state, &[rest]).contains(&Fault::RestSpeed)
+    };
+    // a fall of 1e-12 m, less than the 1e-9 r that what rests may be apart
+    let fallen = (2.0 * -G.y * 1e-12_f64).sqrt();
+    assert!(!closing(1e-12, 0.9 * fallen) && closing(1e-12, 1.1 * fallen), "{fallen:e} m/s");
+    assert!(closing(0.0, 0.9 * fallen) && closing(-1e-12, 0.9 * fallen), "what touches has nothing to fall");
+}
+
+#[test]
 fn momentum_that_nothing_gives_is_found() {
     let pair = vec![sphere(DVec3::ZERO, DVec3::X, 0.5), sphere(DVec3::X * 1.5, DVec3::ZERO, 0.5)];
     let mut run = Simulation::new(&scene(DVec3::ZERO, ELASTIC, vec![], pair), EXACT);
