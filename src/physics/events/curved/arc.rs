@@ -190,8 +190,8 @@ impl Arc {
     /// changes: a brief arc is too long then.
     fn is_steep(&self) -> bool {
         let scale = self.start.time_scale();
-        let changes = self.start.a.iter().zip(&self.end.a).map(|(from, to)| from.distance(*to));
-        changes.zip(&self.start.bodies).any(|(change, body)| !(change * scale * scale <= STEEP * body.r))
+        let changes = self.start.a.iter().zip(&self.end.a).map(|(from, to)| from.distance(*to) * scale * scale);
+        !changes.zip(&self.start.bodies).all(|(change, body)| change <= STEEP * body.r)
     }
 
     /// An arc so short that neither its integration nor its polynomial needs looking at while the contacts hold. Where one

@@ -128,11 +128,10 @@ impl<'a, D: Detector> Search<'a, D> {
 
     /// Looks at all other spheres and all walls; returns how many.
     fn everywhere(&self, plan: &mut Plan) -> u64 {
-        let pairs = |plan: &mut Plan| {
-            let others = (0..self.trajectories.records.len()).filter(|&other| other != self.slot);
-            others.map(|other| self.pair(other, plan)).sum::<u64>()
-        };
-        if D::PAIRS_FIRST { pairs(plan) + self.all_walls(plan) } else { self.all_walls(plan) + pairs(plan) }
+        let walls = if D::PAIRS_FIRST { 0 } else { self.all_walls(plan) };
+        let others = (0..self.trajectories.records.len()).filter(|&other| other != self.slot);
+        let pairs: u64 = others.map(|other| self.pair(other, plan)).sum();
+        walls + pairs + if D::PAIRS_FIRST { self.all_walls(plan) } else { 0 }
     }
 
     /// Looks at the spheres around the sphere's cell and at the walls near it, or only at those that came within reach when
