@@ -173,10 +173,10 @@ pub(crate) struct Hopping {
 }
 
 impl Hopping {
-    /// Whether a sphere hops on this wall, so that the two have no other contact.
+    /// The wall that a sphere hops on, with which it has no other contact meanwhile.
     #[inline]
-    pub(super) fn is_on(&self, i: usize, wall: usize) -> bool {
-        !self.now.is_empty() && self.now.get(&i).is_some_and(|hops| hops.wall == wall)
+    pub(super) fn wall(&self, i: usize) -> Option<usize> {
+        if self.now.is_empty() { None } else { self.now.get(&i).map(|hops| hops.wall) }
     }
 
     /// Whether a sphere hops.

@@ -42,8 +42,7 @@ const SOON: f64 = 0.125;
 /// Share of an arc up to which v of its polynomial is as good as integrated: its error grows as the square.
 const BEGINNING: f64 = 1e-3;
 
-/// Length of the longest arc, in units of the time in which the motion changes: however straight it is, its loads must not
-/// change unseen.
+/// Length of the longest arc, in units of the time in which the motion changes: its loads must not change unseen.
 const LONGEST: f64 = 0.2;
 
 /// Length of an arc that is not halved any more, in units of the time in which the motion changes: its polynomial is off by
@@ -118,8 +117,8 @@ impl Arc {
         Arc::of(self.real(self.length, contacts), contacts, self.loaded.clone(), span)
     }
 
-    /// The bodies `time` (s) after the arc's beginning, integrated up to there: the polynomial is as good in x, but its v
-    /// is off by its error over its span, which adds up where an arc is interrupted over and over.
+    /// The bodies `time` (s) after the arc's beginning, integrated up to there: the polynomial is as good in x, but its v is
+    /// off by its error over its span, which adds up where an arc is interrupted over and over.
     pub(crate) fn real(&self, time: f64, contacts: &[Closed]) -> Vec<Body> {
         if time <= 0.0 {
             return self.start.bodies.clone();

@@ -9,12 +9,12 @@ use crate::physics::contact_time::{is_far, straight_pair};
 use crate::physics::events::detector::{Detector, Due, Span};
 use crate::physics::events::islands::resting::Rests;
 use crate::physics::events::record::Plan;
-use crate::physics::events::rounding::{BRUSH, HOP};
+use crate::physics::events::rounding::{BRUSH, HOP, SUM};
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::impact_law::{normal_velocity, pair_normal_velocity};
 use crate::physics::model::Model;
 use crate::physics::path::Path;
-use crate::physics::wall::touch;
+use crate::physics::wall::{Face, touch};
 
 /// Square of a distance over that of the sum of the radii up to which spheres may rest on each other: more than any
 /// rounding.
@@ -57,14 +57,14 @@ impl<D: Detector> Search<'_, D> {
         let (i, r) = (self.trajectories.sphere(self.slot), self.trajectories.records[self.slot].trajectory.r);
         let mut count = 0;
         for wall in walls {
-            if self.rests.holds((Kind::Wall, i, wall)) || self.trajectories.hopping.is_on(i, wall) {
+            if self.rests.holds((Kind::Wall, i, wall)) || self.trajectories.hopping.wall(i) == Some(wall) {
                 continue;
             }
             count += 1;
             if self.model.faces[wall].height(self.path.x).abs() - r > self.way {
                 continue;
             }
-            let there = self.trajectories.to_and_fro && self.is_there(wall, r);
+            let there = self.trajectories.to_and_fro && self.is_there(wall, r) || self.is_in_the_way(wall, r);
             let found = if there {
                 Some(Due { after: 0.0, is_contact: true })
             } else {
@@ -92,6 +92,25 @@ impl<D: Detector> Search<'_, D> {
             let v_n = normal_velocity(self.path.v, DVec3::ZERO, at.normal);
             at.gap > 0.0 && at.gap <= least && v_n < -BRUSH * self.path.v.length()
         }
+    }
+
+    /// Whether a wall is within the sphere, of radius `r` (m), around all of the hops of the one that looks: what it nears from
+    /// there on is not found. The next tile of the floor that it hops on is none.
+    #[inline]
+    fn is_in_the_way(&self, wall: usize, r: f64) -> bool {
+        let hops_on = self.trajectories.hopping.wall(self.trajectories.sphere(self.slot));
+        hops_on.is_some_and(|own| self.is_beside(&self.model.faces[own], &self.model.faces[wall], r))
+    }
+
+    /// Whether a sphere of radius `r` (m) that hops on its `own` face is within a face that does not lie in the same plane.
+    #[cold]
+    #[inline(never)]
+    fn is_beside(&self, own: &Face, face: &Face, r: f64) -> bool {
+        let x = self.path.x;
+        let least = HOP * x.abs().max_element().max(r);
+        let level = (face.height(x).abs() - own.height(x).abs()).abs() <= least;
+        let parallel = face.normal.cross(own.normal).length() <= SUM;
+        touch(face, x, r).gap <= 0.0 && !(level && parallel)
     }
 
     /// Time up to which a wall is worth a look, s from now: walls come before pairs of the same time, and times that round
@@ -180,6 +199,9 @@ impl<D: Detector> Search<'_, D> {
         if near && !self.rests.is_empty() && self.rest_on_each_other(other) {
             return 0;
         }
+        if near && self.hops_around(other, (&seen, reach)) {
+            return self.offer(other, self.trajectories.now, true, plan);
+        }
         let found = if D::STRAIGHT_PAIRS && self.trajectories.common() == Some(DVec3::ZERO) {
             let t = straight_pair(self.path.x - seen.x, self.path.v - seen.v, reach);
             t.map(|after| Due { after, is_contact: true })
@@ -192,13 +214,25 @@ impl<D: Detector> Search<'_, D> {
         let Some(due) = found else { return 1 };
         let now = self.trajectories.now;
         let at_once = now + due.after <= now;
-        if at_once && (due.after == 0.0 && self.approaches_by_rounding(&seen) || self.turns_at_once(&seen)) {
+        if at_once && due.after == 0.0 && self.approaches_by_rounding(&seen) {
             return 1;
+        }
+        if at_once && self.turns_at_once(&seen) {
+            // they may meet again later, which shows as soon as they part
+            return self.offer(other, now + 2.0 * self.trajectories.clock_ulp(), false, plan);
         }
         let pair = |i: usize, j: usize| (Kind::Pair, i.min(j), i.max(j));
         let sphere = |slot: usize| self.trajectories.sphere(slot);
         let time = self.time_of(&due, || pair(sphere(self.slot), sphere(other)));
         self.offer(other, time, due.is_contact, plan)
+    }
+
+    /// Whether the sphere or the one at `other`, on the path `seen`, hops and the other is within what is around all of its
+    /// hops, `reach` (m) being the sum of the radii: what they near from there on is not found.
+    #[inline]
+    fn hops_around(&self, other: usize, (seen, reach): (&Path, f64)) -> bool {
+        let hops = |slot: usize| self.trajectories.hopping.holds(self.trajectories.sphere(slot));
+        (hops(self.slot) || hops(other)) && self.path.x.distance_squared(seen.x) <= reach * reach
     }
 
     /// Time of what is due, s: of a contact that begins sooner than the clock can tell, and would be left as it is now, the
