@@ -109,3 +109,38 @@ fn a_ball_that_hops_and_is_rubbed_comes_as_far_as_the_geometric_series_says() {
     let (impacts, turns) = (run.tallies().impacts, run.tallies().frames);
     assert!(impacts as f64 >= 1.0 / period() - 2.0 && turns < impacts / 100, "{impacts} impacts in {turns} turns");
 }
+
+#[test]
+fn what_lies_within_the_hops_of_a_ball_is_met() {
+    // Four balls all but fit between two elastic walls, pulled towards the first. The one beside it is sent to and fro until
+    // it hops on its wall by some 1e-13 m, and touches the next, which falls towards it.
+    let down =
+        |x: f64, (y, z): (f64, f64), v: DVec3, mass: f64| carom::scene::Sphere { mass, ..ball(dvec3(x, y, z), v) };
+    let balls = vec![
+        down(0.0, (0.0, 0.0), dvec3(0.0, -0.20549385131075892, 0.0009112829034687922), 1.0),
+        down(
+            0.4999999999934867,
+            (2.1743579364886654e-6, 1.3362104666611093e-6),
+            dvec3(0.0, 0.0003020704031308634, 0.20572785606573563),
+            5.0,
+        ),
+        down(0.9999999999934589, (2.341056863058929e-6, 1.3362104666611093e-6), DVec3::ZERO, 0.1),
+        down(1.5000002498590133, (-9.525941274450468e-7, 1.2453649464207614e-5), DVec3::ZERO, 1.0),
+    ];
+    let upright = |x: f64| wall(DVec3::X * x, DVec3::Y * 10.0, DVec3::Z * 10.0);
+    let back = wall(dvec3(0.75, 0.0, -0.25), DVec3::X * 2.5, DVec3::Y * 10.0);
+    let walls = vec![upright(-0.25000000000025), upright(1.7500002498591543), back];
+    let mut run = recorded(&scene(dvec3(-3.0, -9.8, 0.0), law(0.8), walls, balls), EXACT);
+    for k in 1..=20 {
+        let state = go(&mut run, 0.01 * f64::from(k));
+        for pair in state.x.windows(2) {
+            let gap = pair[0].distance(pair[1]) - 2.0 * R;
+            assert!(gap >= -1e-12, "{gap:e} m at {} s", state.t);
+        }
+    }
+}
+
+/// A ball of that radius.
+fn ball(x: DVec3, v: DVec3) -> carom::scene::Sphere {
+    sphere(x, v, R)
+}

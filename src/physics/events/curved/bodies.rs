@@ -54,6 +54,17 @@ pub(crate) struct Closed<'a> {
     pub(crate) on: On<'a>,
 }
 
+impl Closed<'_> {
+    /// Places of its bodies in the island.
+    pub(crate) fn spheres(&self) -> impl Iterator<Item = usize> {
+        let other = match self.on {
+            On::Wall(..) => None,
+            On::Body(b) => Some(b),
+        };
+        std::iter::once(self.a).chain(other)
+    }
+}
+
 /// A contact as `support` sees it, and its gap, m.
 pub(crate) fn geometry(bodies: &[Body], contact: Closed) -> (Resting, f64) {
     let body = &bodies[contact.a];

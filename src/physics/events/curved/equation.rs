@@ -193,8 +193,9 @@ impl<'a> ConstrainedMotion<'a> {
     /// The least that is left before something changes, as [`ConstrainedMotion::distance_to_change`] tells, of bodies whose
     /// accelerations (m/s²) and forces of the holding contacts (N) are known.
     pub(crate) fn margin(&self, bodies: &[Body], (a, forces): (&[DVec3], &[f64]), before: &Marks) -> f64 {
-        let loads = self.holding.iter().zip(forces);
-        let loads = loads.map(|(contact, force)| force * bodies[contact.a].inverse_mass / pull(bodies));
+        let loads = self.holding.iter().zip(forces).zip(self.rounding(forces));
+        let loads = loads
+            .map(|((contact, force), rounding)| (force + rounding) * bodies[contact.a].inverse_mass / pull(bodies));
         let outwards = |(room, before): (f64, &f64)| room - before.min(0.0) + BORDER;
         let rooms = self.rooms(bodies).into_iter().zip(&before.rooms).map(outwards);
         let openings = self.openings(bodies, a).into_iter().zip(&before.openings);
@@ -209,6 +210,19 @@ impl<'a> ConstrainedMotion<'a> {
         };
         let gaps = self.idle_gaps(bodies).into_iter().zip(&before.gaps).zip(&self.idle).map(sunk);
         loads.chain(rooms).chain(idle).chain(gaps).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Rounding of the loads of the holding contacts, N: of the largest that both bodies of a contact bear. A load of no more
+    /// than that falls below 0 again and again, and the arc would be over as it begins.
+    fn rounding(&self, forces: &[f64]) -> Short<f64> {
+        let mut most: Short<f64> = Short::from_elem(0.0, self.inverse_mass.len());
+        for (contact, force) in self.holding.iter().zip(forces) {
+            for body in contact.spheres() {
+                most[body] = force.max(most[body]);
+            }
+        }
+        let bears = |contact: &Closed| contact.spheres().map(|body| most[body]).fold(f64::INFINITY, f64::min);
+        self.holding.iter().map(|contact| BRUSH * bears(contact)).collect()
     }
 }
 

@@ -183,27 +183,9 @@ impl Settled {
         for (place, &index) in closed.iter().enumerate() {
             self.forces[index] = held.multipliers[place];
         }
-        self.drop_rounding(bodies.len(), resting);
         self.curved = closed.iter().any(|&index| self.forces[index] > 0.0 && self.turns(&resting[index], bodies));
         for &index in &closed {
             self.fate[index] = self.fate_of(index, (&resting[index], gaps[index]), bodies);
-        }
-    }
-
-    /// Takes loads that are rounding of those that both bodies of a contact bear: as they fall below 0 again, every arc would
-    /// be over as it begins.
-    fn drop_rounding(&mut self, bodies: usize, resting: &[Resting]) {
-        let mut most: Short<f64> = Short::from_elem(0.0, bodies);
-        for (contact, force) in resting.iter().zip(&self.forces) {
-            for body in [Some(contact.a), contact.b].into_iter().flatten() {
-                most[body] = force.max(most[body]);
-            }
-        }
-        for (contact, force) in resting.iter().zip(&mut self.forces) {
-            let bears = contact.b.map_or(f64::INFINITY, |b| most[b]).min(most[contact.a]);
-            if *force <= BRUSH * bears {
-                *force = 0.0;
-            }
         }
     }
 
