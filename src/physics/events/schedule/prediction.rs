@@ -6,6 +6,7 @@ use super::entry::{event_order, event_time};
 use super::parts::Schedule;
 use super::search::Search;
 use super::simd::Simd;
+use crate::physics::contact::Kind;
 use crate::physics::events::detector::Detector;
 use crate::physics::events::islands::resting::Rests;
 use crate::physics::events::record::{CellRef, Exit, Plan};
@@ -126,12 +127,13 @@ impl<'a, D: Detector> Search<'a, D> {
         Search { model, trajectories, rests, detector, simd, slot, done, path, until, way }
     }
 
-    /// Looks at all other spheres and all walls; returns how many.
+    /// Looks at all other spheres and all walls, first at those of the kind that the sphere was to meet last; returns how many.
     fn everywhere(&self, plan: &mut Plan) -> u64 {
-        let walls = if D::PAIRS_FIRST { 0 } else { self.all_walls(plan) };
+        let pairs_first = D::PAIRS_FIRST && self.trajectories.records[self.slot].plan.kind == Kind::Pair;
+        let walls = if pairs_first { 0 } else { self.all_walls(plan) };
         let others = (0..self.trajectories.records.len()).filter(|&other| other != self.slot);
         let pairs: u64 = others.map(|other| self.pair(other, plan)).sum();
-        walls + pairs + if D::PAIRS_FIRST { self.all_walls(plan) } else { 0 }
+        walls + pairs + if pairs_first { self.all_walls(plan) } else { 0 }
     }
 
     /// Looks at the spheres around the sphere's cell and at the walls near it, or only at those that came within reach when
