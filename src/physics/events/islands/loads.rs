@@ -2,6 +2,7 @@
 
 use super::resting::{Load, RestingContact, Rests};
 use crate::physics::contact::{Class, Contact, Key, Kind};
+use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::rounding::APART;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::log::Log;
@@ -56,8 +57,8 @@ impl Rests {
         for (&key, held) in self.held.iter().filter(|(_, held)| held.announced) {
             let impulse = Load { since: held.load.since.max(self.frame_start), ..held.load }.given(end);
             let shown = trajectories.contact_geometry(model, key, end);
-            // what has come apart since it carried anything is held for the solver's sake alone
-            let touches = held.load.force > 0.0 || shown.gap <= APART * shown.reach;
+            // what has come apart since it carried anything, or does so, is held for the solver's sake alone
+            let touches = held.load.force > 0.0 || shown.gap <= APART * shown.reach && !leaves(model, &shown);
             let begun = |row: &Contact| row.class == Class::Rest && row.key() == key;
             if touches && (impulse > 0.0 || !log.contacts[..met].iter().any(begun)) {
                 let row = shown.row(end, Class::Rest, impulse, 0.0);
@@ -65,4 +66,13 @@ impl Rests {
             }
         }
     }
+}
+
+/// Whether bodies open faster than what pulls them gives them over the gap that a contact may have.
+fn leaves(model: &Model, shown: &ContactState) -> bool {
+    let (kind, a, b) = shown.key;
+    let pull = |i: usize| model.acceleration(i).length();
+    let both = pull(a) + if kind == Kind::Pair { pull(b) } else { 0.0 };
+    let v_n = shown.normal.dot(shown.velocity);
+    v_n > 0.0 && v_n * v_n > 2.0 * both * APART * shown.reach
 }
