@@ -168,6 +168,9 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
 /// both sides. Only times below `before` (s) matter.
 #[inline]
 pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64> {
+    if path.v == DVec3::ZERO && path.a == DVec3::ZERO {
+        return None;
+    }
     let search = WallSearch { path, r, face, before };
     let height = [face.height(path.x), face.normal.dot(path.v), 0.5 * face.normal.dot(path.a)];
     if height[0].abs() > r {
@@ -230,6 +233,9 @@ impl WallSearch<'_> {
         for t in self.entries(height, best.time) {
             best.take(self.verified(t));
         }
+        if self.stays_over_face(best.time) {
+            return best.found;
+        }
         let (stays, count) = self.stays(height, best.time);
         for &[from, to] in &stays[..count] {
             self.outline(from, to, &mut best);
@@ -248,6 +254,18 @@ impl WallSearch<'_> {
         let outwards = [d1, -d1, d2, -d2].into_iter().filter(move |out| foot.dot(*out) > 0.5);
         let enters = move |out: DVec3| quadratic_fall([foot.dot(out) - 0.5, v.dot(out), 0.5 * a.dot(out)]);
         outwards.filter_map(enters).filter(move |&t| t < end && touches(t))
+    }
+
+    /// Whether the foot of the centre certainly lies on the face until `end` (s): edges and corners are no nearer then.
+    fn stays_over_face(&self, end: f64) -> bool {
+        let Path { x, v, a } = *self.path;
+        let foot = x - self.face.shape.center;
+        let stays = |dual: DVec3| {
+            let (v, a) = (v.dot(dual).abs(), a.dot(dual).abs());
+            let way = if v + a > 0.0 { (v + 0.5 * a * end) * end } else { 0.0 };
+            foot.dot(dual).abs() + way <= 0.5
+        };
+        stays(self.face.dual1) && stays(self.face.dual2)
     }
 
     /// The stretches [from, to] (s) before `end` (s) in which the centre is within reach of the plane, and their number:

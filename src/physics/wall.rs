@@ -5,6 +5,9 @@ use glam::DVec3;
 use super::support::Surface;
 use crate::geometry::Parallelogram;
 
+/// Rounding of a distance from a wall, relative to the coordinates: 64 ulp.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// A wall with what its tests need: unit normal and the dual vectors of its edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
@@ -16,6 +19,8 @@ pub struct Face {
     pub dual1: DVec3,
     /// d2 with d2·s2 = 1, d2·s1 = d2·n = 0, 1/m.
     pub dual2: DVec3,
+    /// Unit vectors along d1 and d2: outwards from the edges, in the plane.
+    pub outward: [DVec3; 2],
     /// Distances between opposite edges, 1/|d1| and 1/|d2|, m.
     pub widths: [f64; 2],
     /// Whether no sphere can reach its edges, as long as none passes a wall.
@@ -28,7 +33,9 @@ impl Face {
         let normal = shape.normal();
         let (row1, row2) = (shape.s2.cross(normal), normal.cross(shape.s1));
         let (dual1, dual2) = (row1 / row1.dot(shape.s1), row2 / row2.dot(shape.s2));
-        Face { shape, normal, dual1, dual2, widths: [dual1, dual2].map(|d| 1.0 / d.length()), sealed: false }
+        let lengths = [dual1.length(), dual2.length()];
+        let outward = [dual1 / lengths[0], dual2 / lengths[1]];
+        Face { shape, normal, dual1, dual2, outward, widths: lengths.map(|length| 1.0 / length), sealed: false }
     }
 
     /// Signed distance of `p` (m) from the wall's plane, m; positive on the side of `normal`.
@@ -51,6 +58,13 @@ impl Face {
         let (aside, height) =
             (beyond(self.dual1, self.widths[0]).max(beyond(self.dual2, self.widths[1])), q.dot(self.normal));
         if aside > 0.0 { (aside * aside + height * height).sqrt() } else { height.abs() }
+    }
+
+    /// Whether the wall is certainly farther than `distance` (m) from `p` (m), rounding included: tiles beside the one that a
+    /// sphere touches, of which the closest point takes longer to find.
+    #[inline]
+    pub(crate) fn is_farther(&self, p: DVec3, distance: f64) -> bool {
+        self.at_least(p) > distance + ROUNDING * self.size().max(p.abs().max_element())
     }
 
     /// Whether the foot of `p` (m) on the plane lies within the parallelogram, its boundary included.
@@ -87,14 +101,15 @@ pub struct Touch {
 }
 
 /// The closest point of a wall to a centre `x` (m) of a sphere of radius `r` (m).
+#[inline]
 pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
-    let foot = x - face.shape.center;
-    let (u, w) = (foot.dot(face.dual1), foot.dot(face.dual2));
-    if u.abs() <= 0.5 && w.abs() <= 0.5 {
-        return touch_part(face, Part::Face, x, r);
-    }
+    if face.shades(x) { touch_face(face, x, r) } else { touch_outline(face, x, r) }
+}
+
+/// The closest point of a wall's edges and corners.
+fn touch_outline(face: &Face, x: DVec3, r: f64) -> Touch {
     let corners = face.shape.corners();
-    let mut best = (Part::Corner(0), f64::INFINITY);
+    let mut best = (Part::Corner(0), corners[0], f64::INFINITY);
     for k in 0..4 {
         let (from, to) = (corners[k], corners[(k + 1) % 4]);
         let along = (x - from).dot(to - from) / (to - from).length_squared();
@@ -104,30 +119,40 @@ pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
             s => (Part::Edge(k as u8), from + (to - from) * s),
         };
         let squared = (x - point).length_squared();
-        if squared < best.1 {
-            best = (part, squared);
+        if squared < best.2 {
+            best = (part, point, squared);
         }
     }
-    touch_part(face, best.0, x, r)
+    touch_point((best.0, best.1), x, r)
+}
+
+/// The foot of a centre on the plane of a wall.
+#[inline]
+fn touch_face(face: &Face, x: DVec3, r: f64) -> Touch {
+    let height = face.height(x);
+    let side = if height < 0.0 { -1.0 } else { 1.0 };
+    let point = x - face.normal * height;
+    Touch { part: Part::Face, point, normal: face.normal * side, gap: side * height - r }
 }
 
 /// The point of a given part of a wall that is closest to a centre `x` (m) of a sphere of radius `r` (m): a contact that
 /// rolls over an edge stays with the part that it was handed to.
 pub fn touch_part(face: &Face, part: Part, x: DVec3, r: f64) -> Touch {
-    let corners = face.shape.corners();
+    let corners = || face.shape.corners();
     let point = match part {
-        Part::Face => {
-            let height = face.height(x);
-            let side = if height < 0.0 { -1.0 } else { 1.0 };
-            let point = x - face.normal * height;
-            return Touch { part, point, normal: face.normal * side, gap: side * height - r };
-        }
+        Part::Face => return touch_face(face, x, r),
         Part::Edge(k) => {
+            let corners = corners();
             let (from, to) = (corners[k as usize], corners[(k as usize + 1) % 4]);
             from + (to - from) * ((x - from).dot(to - from) / (to - from).length_squared())
         }
-        Part::Corner(k) => corners[k as usize],
+        Part::Corner(k) => corners()[k as usize],
     };
+    touch_point((part, point), x, r)
+}
+
+/// A point of an edge, or a corner.
+fn touch_point((part, point): (Part, DVec3), x: DVec3, r: f64) -> Touch {
     let arm = x - point;
     let distance = arm.length();
     Touch { part, point, normal: arm / distance, gap: distance - r }

@@ -32,8 +32,7 @@ impl Sides {
             let side = corners[(k + 1) % 4] - corners[k];
             side / side.length()
         });
-        let (one, two) = (face.dual1 / face.dual1.length(), face.dual2 / face.dual2.length());
-        Sides { corners, along, outward: [-two, one, two, -one] }
+        Sides { corners, along, outward: outward(face) }
     }
 
     /// The borders of a part: four of a face, three of an edge, two of a corner.
@@ -60,6 +59,18 @@ impl Sides {
         let (borders, count) = self.borders(part);
         borders[..count].iter().map(|border| border.inward.dot(x - border.at)).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Whether the point closest to `x` is inside the face, by what [`room`] says of it: no other part has room then.
+fn is_inside(face: &Face, x: DVec3) -> bool {
+    let corners = face.shape.corners();
+    outward(face).iter().zip(corners).all(|(outward, corner)| -outward.dot(x - corner) > 0.0)
+}
+
+/// The unit vectors outwards from the edges of a wall, in its plane.
+fn outward(face: &Face) -> [DVec3; 4] {
+    let [one, two] = face.outward;
+    [-two, one, two, -one]
 }
 
 /// How far the point closest to `x` is inside a part of a wall, m: the least distance to where another part takes over;
@@ -96,6 +107,9 @@ pub(crate) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> P
     let direction = if v == DVec3::ZERO { a } else { v };
     let length = direction.length();
     let look = if length > 0.0 { x + direction * (ahead / length) } else { x };
+    if is_inside(face, look) {
+        return Part::Face;
+    }
     let outline = Sides::of(face);
     let mut best = (Part::Face, outline.room(Part::Face, look));
     for part in (0..4).map(Part::Edge).chain((0..4).map(Part::Corner)) {
@@ -146,6 +160,18 @@ mod tests {
                 assert_eq!(room > 0.0, part == closest, "{x}: {closest:?}, but {part:?} has room {room}");
             }
         }
+    }
+
+    #[test]
+    fn a_wall_is_said_to_be_farther_only_where_it_is() {
+        let face = skewed();
+        let mut said = 0;
+        for x in grid() {
+            let distance = face.shape.distance(x);
+            assert!(!face.is_farther(x, distance), "{x}: {distance}");
+            said += u32::from(face.is_farther(x, 0.5 * distance));
+        }
+        assert!(said > 5_000, "{said} of 15 625 points");
     }
 
     #[test]

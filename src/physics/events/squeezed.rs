@@ -14,7 +14,7 @@ use crate::physics::contact::{Key, Kind};
 use crate::physics::model::Model;
 use crate::physics::overlap::touching;
 use crate::physics::support::{Row, solve};
-use crate::physics::wall::touch;
+use crate::physics::wall::{Face, touch};
 
 /// Events without the clock advancing from which on it is asked whether a sphere is squeezed, at powers of two.
 const DOUBTFUL: u64 = 4;
@@ -58,7 +58,8 @@ pub(super) fn walls_touched(
     let (r, i) = (record.trajectory.r, record.sphere as usize);
     let x = trajectories.path(i, trajectories.now).x;
     let slack = touching(r, x.abs().max_element());
-    let touched = walls.filter(|&wall| touch(&model.faces[wall], x, r).gap <= slack);
+    let touches = |face: &Face| !face.is_farther(x, r + slack) && touch(face, x, r).gap <= slack;
+    let touched = walls.filter(|&wall| touches(&model.faces[wall]));
     touched.map(|wall| (Kind::Wall, i, wall)).collect()
 }
 
@@ -74,6 +75,10 @@ pub(super) fn squeezing(model: &Model, trajectories: &Trajectories, keys: &[Key]
     };
     let rows: Vec<Row> = keys.iter().map(|key| Row { a: 0, b: None, normal: normal(key), offset: 0.0 }).collect();
     let stays = |row: &Row| {
+        // straight off the wall is forbidden by none of the others
+        if rows.iter().all(|other| other.normal.dot(row.normal) >= 0.0) {
+            return false;
+        }
         let way = solve(&[1.0], &[row.normal], &rows, &[]).vectors[0];
         way.dot(row.normal) <= WEDGE
     };

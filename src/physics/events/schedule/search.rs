@@ -40,15 +40,18 @@ pub(super) struct Search<'a, D> {
 }
 
 impl<D: Detector> Search<'_, D> {
-    /// Looks at all walls, first at the one that the sphere was to meet last: where it bounces on that, millions of times a
-    /// second, the others need no long look. Returns how many.
+    /// Looks at all walls, first at the one that the sphere was to meet last, then at those that it is above: where it bounces
+    /// on one of them, millions of times a second, the others need no long look. Returns how many.
     pub(super) fn all_walls(&self, plan: &mut Plan) -> u64 {
         let (before, count) = (&self.trajectories.records[self.slot].plan, self.model.faces.len());
-        let first = before.other as usize;
-        if !D::PAIRS_FIRST || before.kind != Kind::Wall || first >= count {
+        if !D::PAIRS_FIRST {
             return self.walls(0..count, plan);
         }
-        self.walls(std::iter::once(first), plan) + self.walls((0..count).filter(|&wall| wall != first), plan)
+        let first = if before.kind == Kind::Wall { before.other as usize } else { count };
+        let above = |wall: usize| wall != first && self.model.faces[wall].shades(self.path.x);
+        self.walls((0..count).filter(|&wall| wall == first), plan)
+            + self.walls((0..count).filter(|&wall| above(wall)), plan)
+            + self.walls((0..count).filter(|&wall| wall != first && !above(wall)), plan)
     }
 
     /// Looks at some walls; returns how many.
@@ -87,7 +90,7 @@ impl<D: Detector> Search<'_, D> {
         let (face, x) = (&self.model.faces[wall], self.path.x);
         let least = HOP * x.abs().max_element().max(r);
         let away = face.height(x).abs() - r;
-        away > -least && away <= least && {
+        away > -least && away <= least && !face.is_farther(x, r + least) && {
             let at = touch(face, x, r);
             let v_n = normal_velocity(self.path.v, DVec3::ZERO, at.normal);
             at.gap > 0.0 && at.gap <= least && v_n < -BRUSH * self.path.v.length()
