@@ -169,7 +169,7 @@ fn approached_pair(path: &Path, reach: f64, t: f64) -> Option<f64> {
 #[inline]
 pub fn sphere_wall(path: &Path, r: f64, face: &Face, before: f64) -> Option<f64> {
     if path.v == DVec3::ZERO && path.a == DVec3::ZERO {
-        return None;
+        return None; // what stands still meets nothing; a bound of its way would be 0 · ∞
     }
     let search = WallSearch { path, r, face, before };
     let height = [face.height(path.x), face.normal.dot(path.v), 0.5 * face.normal.dot(path.a)];
@@ -262,6 +262,7 @@ impl WallSearch<'_> {
         let foot = x - self.face.shape.center;
         let stays = |dual: DVec3| {
             let (v, a) = (v.dot(dual).abs(), a.dot(dual).abs());
+            // for ever: 0 · ∞ is no way
             let way = if v + a > 0.0 { (v + 0.5 * a * end) * end } else { 0.0 };
             foot.dot(dual).abs() + way <= 0.5
         };

@@ -109,21 +109,26 @@ pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
 /// The closest point of a wall's edges and corners.
 fn touch_outline(face: &Face, x: DVec3, r: f64) -> Touch {
     let corners = face.shape.corners();
-    let mut best = (Part::Corner(0), corners[0], f64::INFINITY);
+    let (mut closest, mut least) = ((Part::Corner(0), corners[0]), f64::INFINITY);
     for k in 0..4 {
         let (from, to) = (corners[k], corners[(k + 1) % 4]);
-        let along = (x - from).dot(to - from) / (to - from).length_squared();
-        let (part, point) = match along {
+        let (part, point) = match share_along(x, from, to) {
             s if s <= 0.0 => (Part::Corner(k as u8), from),
             s if s >= 1.0 => (Part::Corner((k as u8 + 1) % 4), to),
             s => (Part::Edge(k as u8), from + (to - from) * s),
         };
         let squared = (x - point).length_squared();
-        if squared < best.2 {
-            best = (part, point, squared);
+        if squared < least {
+            (closest, least) = ((part, point), squared);
         }
     }
-    touch_point((best.0, best.1), x, r)
+    touch_point(closest, x, r)
+}
+
+/// Where the foot of `x` on the line through two corners lies: 0 at `from`, 1 at `to`.
+#[inline]
+fn share_along(x: DVec3, from: DVec3, to: DVec3) -> f64 {
+    (x - from).dot(to - from) / (to - from).length_squared()
 }
 
 /// The foot of a centre on the plane of a wall.
@@ -138,15 +143,14 @@ fn touch_face(face: &Face, x: DVec3, r: f64) -> Touch {
 /// The point of a given part of a wall that is closest to a centre `x` (m) of a sphere of radius `r` (m): a contact that
 /// rolls over an edge stays with the part that it was handed to.
 pub fn touch_part(face: &Face, part: Part, x: DVec3, r: f64) -> Touch {
-    let corners = || face.shape.corners();
     let point = match part {
         Part::Face => return touch_face(face, x, r),
         Part::Edge(k) => {
-            let corners = corners();
+            let corners = face.shape.corners();
             let (from, to) = (corners[k as usize], corners[(k as usize + 1) % 4]);
-            from + (to - from) * ((x - from).dot(to - from) / (to - from).length_squared())
+            from + (to - from) * share_along(x, from, to)
         }
-        Part::Corner(k) => corners()[k as usize],
+        Part::Corner(k) => face.shape.corners()[k as usize],
     };
     touch_point((part, point), x, r)
 }

@@ -48,10 +48,10 @@ impl<D: Detector> Search<'_, D> {
             return self.walls(0..count, plan);
         }
         let first = if before.kind == Kind::Wall { before.other as usize } else { count };
-        let above = |wall: usize| wall != first && self.model.faces[wall].shades(self.path.x);
-        self.walls((0..count).filter(|&wall| wall == first), plan)
-            + self.walls((0..count).filter(|&wall| above(wall)), plan)
-            + self.walls((0..count).filter(|&wall| wall != first && !above(wall)), plan)
+        let above = |wall: usize| self.model.faces[wall].shades(self.path.x);
+        let others = || (0..count).filter(|&wall| wall != first);
+        let walls = (0..count).filter(|&wall| wall == first);
+        self.walls(walls.chain(others().filter(|&wall| above(wall))).chain(others().filter(|&wall| !above(wall))), plan)
     }
 
     /// Looks at some walls; returns how many.
