@@ -2,12 +2,16 @@
 
 use glam::DVec3;
 
-use crate::physics::{Model, State};
+use crate::physics::{Class, Contact, Kind, Model, State};
 
 use super::finding::{Bodies, Fault, Findings};
 
 /// Ulps of the energy's terms that a run may gain at first; each impact may add one.
 const ULPS: f64 = 4096.0;
+
+/// Ulps of their places by which bodies pressed on each other may be off: along a line of spheres that just fits between
+/// walls, loads of 1e11 N hold a weight of 10 N, and one ulp of a place is worth as much as the weight falls by.
+const PRESSED_ULPS: f64 = 4.0;
 
 /// Share of the energy's terms that the motion of one frame may lose: curved rest is integrated to some digits less.
 const MOTION: f64 = 1e-11;
@@ -23,6 +27,9 @@ pub(super) struct Energy {
     hidden: f64,
     /// Largest Σ of the energy's terms, each taken positive, J: what rounding is relative to.
     size: f64,
+    /// Largest Σ of the loads of what rests, each times how far the coordinates of its bodies reach, J: what rounding of
+    /// places is relative to.
+    pressed: f64,
     /// Impacts so far.
     impacts: u64,
 }
@@ -30,7 +37,19 @@ pub(super) struct Energy {
 impl Energy {
     pub(super) fn new(model: &Model, state: &State) -> Energy {
         let (least, size) = energy(model, state);
-        Energy { least, last: least, hidden: 0.0, size, impacts: 0 }
+        Energy { least, last: least, hidden: 0.0, size, pressed: 0.0, impacts: 0 }
+    }
+
+    /// Takes note of the loads of what rests at the end of a frame, `step` (s) long, by its contacts.
+    pub(super) fn bear(&mut self, model: &Model, state: &State, contacts: &[Contact], step: f64) {
+        let reach = |i: usize| state.x[i].abs().max_element() + model.radii[i];
+        let both = |row: &Contact| reach(row.a) + if row.kind == Kind::Pair { reach(row.b) } else { 0.0 };
+        // a rest that goes on, not one that begins by stopping an approach
+        let goes_on = |row: &&Contact| row.class == Class::Rest && row.time == state.t && row.approach_speed == 0.0;
+        let impulses: f64 = contacts.iter().filter(goes_on).map(|row| row.impulse * both(row)).sum();
+        if step > 0.0 {
+            self.pressed = self.pressed.max(impulses / step);
+        }
     }
 
     /// By how much a state's energy, with what is `hidden` of it (J), is above the least seen, and what rounding allows, J;
@@ -44,7 +63,7 @@ impl Energy {
         self.last = now;
         self.least = self.least.min(now);
         let ulps = ULPS + self.impacts as f64 + model.len() as f64;
-        [rise, ulps * f64::EPSILON * self.size]
+        [rise, f64::EPSILON * (ulps * self.size + PRESSED_ULPS * self.pressed)]
     }
 
     /// Judges a state; `explained` (J) is what impacts and rests may have taken since the last one, if that is known.

@@ -85,6 +85,7 @@ impl Judge {
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
         let explained = self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
         let impacts = contacts.iter().filter(|row| row.class == Class::Collide).count();
+        self.energy.bear(model, state, contacts, state.t - self.before.t);
         self.energy.look(model, (state, hidden), impacts as u64, explained, found);
         self.before.clone_from(state);
         self.held = held;

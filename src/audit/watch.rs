@@ -119,6 +119,7 @@ impl Watch {
             self.overlaps.begin(model, &state.x);
             self.energy = Energy::new(model, &state);
         }
+        self.energy.bear(model, &state, simulation.contacts(), simulation.step());
         let impacts = simulation.tallies().impacts;
         let struck = impacts.saturating_sub(std::mem::replace(&mut self.impacts, impacts));
         self.see(model, (&state, simulation.hidden_energy()), struck);

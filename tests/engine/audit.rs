@@ -190,6 +190,30 @@ fn momentum_that_nothing_gives_is_found() {
 }
 
 #[test]
+fn energy_may_rise_by_what_rounded_places_are_worth_under_a_load_and_no_more() {
+    // A ball on a floor gains a microjoule. One ulp of the places of a contact that carries 1e10 N is worth more; one of its
+    // weight is not, nor one of a rest that begins by stopping as hard a blow.
+    let floor = wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::Z * -20.0);
+    let run = Simulation::new(&scene(G, PAPER_LAW, vec![floor], vec![sphere(DVec3::Y * 0.5, DVec3::X, 0.5)]), EXACT);
+    let state = State { t: 0.5, x: vec![dvec3(0.5, 0.5, 0.0)], v: vec![DVec3::X * (1.0 + 1e-6)] };
+    let rises = |force: f64, approach_speed: f64| {
+        let impulse = force * state.t;
+        let row = Contact { class: Class::Rest, time: state.t, impulse, approach_speed, ..touching(&run) };
+        let mut judge = Judge::of(&run);
+        judge.look(run.model(), &Frame { state: &state, contacts: &[row], events: &[], hidden: 0.0 });
+        judge.findings().rows().iter().any(|finding| finding.fault == Fault::Energy)
+    };
+    assert!(!rises(1e10, 0.0) && rises(-G.y, 0.0) && rises(1e10, 1.0));
+}
+
+/// The contact of the only ball of a run with its floor.
+fn touching(run: &Simulation) -> Contact {
+    let mut run = run.clone();
+    run.advance(Until::Frame, u64::MAX);
+    *run.contacts().first().expect("the ball rests on the floor")
+}
+
+#[test]
 fn the_watch_alarms_with_time_and_bodies() {
     let floor = wall(DVec3::ZERO, DVec3::X * 20.0, DVec3::Z * -20.0);
     let run = Simulation::new(&scene(G, PAPER_LAW, vec![floor], vec![sphere(DVec3::Y, DVec3::X, 0.5)]), EXACT);
