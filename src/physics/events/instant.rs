@@ -100,6 +100,11 @@ impl Instant {
         *count > STUCK
     }
 
+    /// Whether a contact has been released so often at this instant that it will be held if it opens once more.
+    pub(crate) fn sticks(&self, key: Key) -> bool {
+        self.releases.get(&key).is_some_and(|&count| count >= STUCK)
+    }
+
     /// Counts so many impacts of a contact at this instant that were skipped together, before which its bodies had these
     /// speeds in all, m/s.
     pub(super) fn count_skipped(&mut self, key: Key, impacts: u64, speeds: f64) {

@@ -45,8 +45,13 @@ pub(crate) struct Settled {
 ///
 /// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
 /// clock or the coordinates can tell is closed.
-/// `loads` (N, by contact) are what they carried last.
-pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f64], tick: f64) -> Settled {
+/// `loads` (N, by contact) are what they carried last; what is `stuck`, by contact, will be held even if it opens.
+pub(crate) fn solve_island(
+    bodies: &mut [Body],
+    contacts: &[Closed],
+    (loads, stuck): (&[f64], &[bool]),
+    tick: f64,
+) -> Settled {
     let (resting, gaps): (Short<Resting>, Short<f64>) =
         contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
     let inverse_mass: Short<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
@@ -70,7 +75,7 @@ pub(crate) fn solve_island(bodies: &mut [Body], contacts: &[Closed], loads: &[f6
     };
     for _ in 0..ROUNDS {
         settled.hold(bodies, all, (&resting, &gaps), (loads, &slack));
-        let closed = settled.clear_normal_velocity(bodies, &inverse_mass, &resting, &slack);
+        let closed = settled.clear_normal_velocity(bodies, &inverse_mass, (&resting, stuck), &slack);
         if !closed
             .iter()
             .any(|&index| settled.opening(&resting[index], bodies) < -settled.noise(&resting[index], bodies))
@@ -254,11 +259,11 @@ impl Settled {
         &mut self,
         bodies: &mut [Body],
         inverse_mass: &[f64],
-        resting: &[Resting],
+        (resting, stuck): (&[Resting], &[bool]),
         slack: &[f64],
     ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let (v, holds) = self.cleared(&before, inverse_mass, resting, power(bodies));
+        let (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
         let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
         let opens = |index: usize| {
             let noise = SUM * before[resting[index].a].length();
@@ -288,7 +293,7 @@ impl Settled {
         &self,
         before: &[DVec3],
         inverse_mass: &[f64],
-        resting: &[Resting],
+        (resting, stuck): (&[Resting], &[bool]),
         power: f64,
     ) -> (Vec<DVec3>, Short<bool>) {
         let mut holds: Short<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
@@ -306,7 +311,7 @@ impl Settled {
             let approaches = |index: usize| {
                 let contact = &resting[index];
                 let noise = precision(contact) * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
-                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
+                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some() || stuck[index];
                 may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
             };
             let new: Short<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();

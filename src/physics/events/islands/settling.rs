@@ -257,7 +257,8 @@ impl Mechanics {
         let Members { spheres, mut bodies, contacts } = self.members(model, keys);
         let loads: Short<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
         let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
-        let settled = solve_island(&mut bodies, &closed(model, &contacts), &loads, tick);
+        let stuck: Short<bool> = keys.iter().map(|&key| self.impacts.instant.sticks(key)).collect();
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), (&loads, &stuck), tick);
         if !settled.converged {
             return Err(self.not_held(keys));
         }
