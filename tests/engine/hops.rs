@@ -140,6 +140,106 @@ fn what_lies_within_the_hops_of_a_ball_is_met() {
     }
 }
 
+/// Gap between two upright walls and a ball in it, m: 2⁻³³, as coordinates round it exactly.
+const GAP: f64 = HEIGHT;
+
+/// Speed at which a ball goes to and fro in that gap, m/s: it strikes a wall 8.6e8 times a second.
+const ACROSS: f64 = 0.1;
+
+/// Two upright walls that a ball at x = R all but fits between.
+fn gap() -> Vec<carom::scene::Wall> {
+    [0.0, 2.0 * R + GAP].map(|x| wall(DVec3::X * x, DVec3::Y * 40.0, DVec3::Z * 40.0)).to_vec()
+}
+
+#[test]
+fn a_ball_in_a_gap_goes_to_and_fro_a_billion_times_a_second_and_flies_along_it() {
+    let v = dvec3(ACROSS, 1.0, 0.5);
+    let mut run = recorded(&scene(G, law(1.0), gap(), vec![ball(DVec3::X * R, v)]), EXACT);
+    for k in 1..=10 {
+        let t = 0.13 * f64::from(k);
+        let state = go(&mut run, t);
+        let flown = dvec3(R, v.y * t + 0.5 * G.y * t * t, v.z * t);
+        let (x, off) = (state.x[0], state.x[0] - flown);
+        // Each flight begins where coordinates round it to: along the walls that leaves an ulp a hundred times a second.
+        assert!(off.y.abs() <= 1e-13 && off.z.abs() <= 1e-13, "{off} m off at {t} s");
+        assert!(off.x >= -1e-15 && off.x <= GAP + 1e-15, "{x} is not within the gap at {t} s");
+        assert!((state.v[0].x.abs() - ACROSS).abs() <= 1e-12 * ACROSS, "{} m/s at {t} s", state.v[0]);
+    }
+    let (impacts, expected) = (run.tallies().impacts as f64, ACROSS / GAP * run.time());
+    // The clock tells a flight to a ten-millionth.
+    assert!((impacts / expected - 1.0).abs() <= 1e-6, "{impacts} impacts instead of {expected}");
+    assert!(run.tallies().frames < 10_000, "{} frames", run.tallies().frames);
+    let energy = run.state().energy(run.model()) / run.initial_energy() - 1.0;
+    // Of the height and the fall, a hundred times as much as their sum.
+    assert!(energy.abs() <= 1e-13, "energy off by {energy:e}");
+}
+
+#[test]
+fn a_ball_in_a_gap_that_rubs_creeps_as_the_limit_of_the_law_says() {
+    // Each impact leaves a half of what slides, and each flight of T adds g T: v' = (v + g T) / 2 ends at v = g T, and a
+    // flight leads v T + g T²/2 down, so that the ball creeps at 3/2 g T = 17 nm/s: 1e-17 m a flight, which no place tells.
+    let law = ContactLaw { tangential: 0.5, ..law(1.0) };
+    let start = ball(dvec3(R, 3.0, 0.0), DVec3::X * ACROSS);
+    let mut run = recorded(&scene(G, law, gap(), vec![start]), EXACT);
+    let flight = GAP / ACROSS;
+    let creeps = 1.5 * -G.y * flight;
+    for k in 1..=5 {
+        let t = 0.2 * f64::from(k);
+        let fallen = 3.0 - go(&mut run, t).x[0].y;
+        // Of some 8000 rounds, after which the rows are told, two are followed impact by impact, as places round them.
+        assert!((fallen - creeps * t).abs() <= 5e-4 * creeps * t + 1e-15, "{fallen:e} m instead of {:e}", creeps * t);
+    }
+    // What the walls take is what the fall gives.
+    let lost = run.initial_energy() - run.state().energy(run.model());
+    assert!((lost + G.y * creeps).abs() <= 1e-3 * creeps * -G.y + 1e-13, "{lost:e} J lost");
+    let impacts = run.tallies().impacts as f64;
+    assert!((impacts * flight - 1.0).abs() <= 1e-4, "{impacts} impacts in 1 s, {flight:e} s apart");
+}
+
+#[test]
+fn a_ball_that_goes_straight_from_wall_to_wall_of_a_valley_that_rubs_goes_on_for_ever() {
+    // From a wall straight off, by symmetry straight onto the other one: nothing slides, so nothing is rubbed away. Walls at
+    // 60° to the ground; the ball begins s up from where it would touch both, at u² = g s cos 60° / (sin 60° cos 60°).
+    let (sin, cos) = (0.75_f64.sqrt(), 0.5);
+    let (r, s) = (0.5, 1e-12);
+    let side = |sign: f64| {
+        wall(dvec3(2.0 * cos * sign, 2.0 * sin, 0.0), dvec3(4.0 * cos * sign, 4.0 * sin, 0.0), DVec3::Z * 4.0)
+    };
+    let (up, normal) = (dvec3(-cos, sin, 0.0), dvec3(sin, cos, 0.0));
+    let u = (-G.y * s * cos / (sin * cos)).sqrt();
+    let law = ContactLaw { tangential: 0.5, ..law(1.0) };
+    let start = sphere(DVec3::Y * (r / cos) + up * s, normal * u, r);
+    let mut run = recorded(&scene(G, law, vec![side(1.0), side(-1.0)], vec![start]), EXACT);
+    let center = DVec3::Y * (r / cos);
+    for k in 1..=10 {
+        let state = go(&mut run, f64::from(k));
+        let way = state.x[0].distance(center);
+        assert!(way <= 2.0 * s, "{way:e} m from where it would rest");
+        // Places of 1 m tell 1e-16 m, which is worth g 1e-16 of u²/2.
+        let (energy, first) =
+            (state.v[0].length_squared() * 0.5 - G.y * (state.x[0].y - center.y), 0.5 * u * u - G.y * s * sin);
+        assert!((energy / first - 1.0).abs() <= 0.02, "{energy:e} J instead of {first:e} at {k} s");
+    }
+    let (impacts, expected) = (run.tallies().impacts as f64, 10.0 * -G.y / (2.0 * u * cos));
+    assert!((impacts / expected - 1.0).abs() <= 0.02, "{impacts} impacts instead of {expected}");
+    assert!(run.tallies().frames < 10_000, "{} frames", run.tallies().frames);
+}
+
+#[test]
+fn two_balls_in_a_gap_meet_when_they_should_and_exchange_what_they_have_along_it() {
+    // Centres 2 m apart, closing at 1 m/s, while each goes to and fro across the gap: they touch after 1.5 s.
+    let balls = [(-1.0, 0.75), (1.0, -0.25)].map(|(z, v)| ball(dvec3(R, 0.0, z), dvec3(ACROSS, 0.0, v)));
+    let mut run = recorded(&scene(DVec3::ZERO, law(1.0), gap(), balls.to_vec()), EXACT);
+    let state = go(&mut run, 2.5);
+    let struck: Vec<_> = run.take_events().into_iter().filter(|row| row.kind == carom::physics::Kind::Pair).collect();
+    assert_eq!(struck.len(), 1, "{struck:?}");
+    assert!((struck[0].time - 1.5).abs() <= 1e-9, "they meet at {} s", struck[0].time);
+    for (found, expected) in state.v.iter().zip([-0.25, 0.75]) {
+        // The line of centres is off the level by no more than the gap, 2.3e-10 of the sum of the radii.
+        assert!((found.z - expected).abs() <= 1e-9, "{} instead of {expected} m/s", found.z);
+    }
+}
+
 /// A ball of that radius.
 fn ball(x: DVec3, v: DVec3) -> carom::scene::Sphere {
     sphere(x, v, R)

@@ -92,7 +92,13 @@ impl Chatter {
         let since = self.rows.get(&contact.key).map_or(since, |row| row.last);
         let keeps = speed_kept(model, rests, contact.key);
         let rounding = HOP * contact.size();
-        let small = if keeps < 1.0 { SMALL * contact.reach } else { rounding };
+        let tiny = (SUMMED_HOP * contact.reach).max(rounding);
+        let small = match keeps {
+            1.0 if model.law.tangential == 1.0 => rounding,
+            // what walls that rub take beside it ends it
+            1.0 => tiny,
+            _ => SMALL * contact.reach,
+        };
         // a hop h high by gravity takes 4 h / v_n; a rattle across a gap, twice the gap / v_n
         let way = 0.25 * approach_speed * (now - since);
         if way > small {
@@ -103,7 +109,7 @@ impl Chatter {
         row.given = MEMORY * row.given + (1.0 + keeps) * approach_speed;
         row.took = MEMORY * row.took + (now - row.last);
         row.count = row.count.saturating_add(1);
-        row.tiny = if way <= (SUMMED_HOP * contact.reach).max(rounding) { row.tiny.saturating_add(1) } else { 0 };
+        row.tiny = if way <= tiny { row.tiny.saturating_add(1) } else { 0 };
         row.last = now;
         row.due *= keeps.sqrt();
         row.is_endless(approach_speed, keeps, pull)

@@ -1,19 +1,18 @@
-//! Equal hops of a sphere on a face: many at once.
+//! Low flights that a sphere repeats between impacts on faces: many at once.
 //!
-//! Where an impact takes nothing off the wall, a sphere that bounces on a face takes the same hop again and again. Along the
-//! face it slides meanwhile as if it flew; or, if the wall rubs, each impact leaves the same share of what is left to slide,
-//! and the way that is left is a geometric series. Hops of 1e-12 m, as a gap of rounding leaves them, come a million times a
-//! second. So a sphere that has done the same few times in a row is
-//! taken to hop on until it may meet anything else. Meanwhile its record holds a sphere around its whole hop, half a hop
-//! above the face and larger by as much, that slides along. What meets that has the hops told, and the sphere put to where
-//! it is in its hop by then, before anything else happens: contacts and states are those of hop by hop, with less rounding.
+//! Equal [`hops`](super::hops) on one face, or the rounds of an [`orbit`](super::orbit) between several: those of 1e-12 m, as a
+//! gap of rounding leaves them, come a million times a second. So a sphere that has done the same often enough in a row is
+//! taken to go on like that until it may meet anything else. Meanwhile its record holds a sphere around all of its way,
+//! larger by as much, that slides along. What meets that has the impacts told, and the sphere put to where it is by then,
+//! before anything else happens: contacts and states are those of impact by impact, with less rounding.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::hops::Hops;
+use super::orbit::{Leg, Orbit, OrbitRow};
 use super::record::{Plan, Trajectory};
-use super::rounding::{HOP, SUM, TOUCHED_GAP};
 use crate::physics::contact::Kind;
 use crate::physics::state::State;
 
@@ -22,134 +21,96 @@ use crate::physics::state::State;
 const FIRST: u32 = 4;
 const LAST: u32 = 256;
 
-/// Largest energy of sliding that hops may rub away before they are told, in units of what a fall by the radius gains: no
-/// more than a tenth of what the energy of a frame may be off by.
-const UNTOLD: f64 = 1e-12;
-
-/// Fewest hops that are worth it: beginning and ending cost a few events.
+/// Fewest impacts that are worth it: beginning and ending cost a few events.
 pub(super) const FEWEST: u64 = 16;
 
-/// A sphere that hops.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Hops {
-    /// The face, by its index.
-    pub(super) wall: usize,
-    /// Unit normal of the face, towards the sphere.
-    pub(super) normal: DVec3,
-    /// The sphere right after the impact with which the first hop begins.
-    pub(super) line: Trajectory,
-    /// Acceleration of the sphere, m/s².
-    pub(super) a: DVec3,
-    /// Speed at which each hop leaves the face, m/s.
-    pub(super) speed: f64,
-    /// Acceleration towards the face, m/s².
-    pub(super) press: f64,
-    /// Share that an impact leaves of what slides along the face: 1 if the wall does not rub.
-    pub(super) keeps: f64,
-    /// Number of hops until the last one is over.
-    pub(super) count: u64,
+/// What a sphere repeats.
+#[derive(Debug, Clone)]
+pub(super) enum Repeated {
+    /// Hops on a face.
+    Hops(Hops),
+    /// An orbit between faces.
+    Orbit(Box<Orbit>),
 }
 
-impl Hops {
-    /// How long a hop takes, s.
-    pub(super) fn period(&self) -> f64 {
-        2.0 * self.speed / self.press
+impl Repeated {
+    /// When it began, s.
+    fn begin(&self) -> f64 {
+        match self {
+            Repeated::Hops(hops) => hops.line.t,
+            Repeated::Orbit(orbit) => orbit.begin(),
+        }
     }
 
-    /// How high a hop is, m.
-    pub(super) fn height(&self) -> f64 {
-        0.5 * self.speed * self.speed / self.press
-    }
-
-    /// When the last hop is over, s.
+    /// When it is over, s.
     fn end(&self) -> f64 {
-        self.line.t + self.count as f64 * self.period()
+        match self {
+            Repeated::Hops(hops) => hops.end(),
+            Repeated::Orbit(orbit) => orbit.end(),
+        }
     }
 
-    /// Part of a vector along the face.
-    fn along(&self, u: DVec3) -> DVec3 {
-        u - self.normal * self.normal.dot(u)
+    /// The walls that are struck, by their indices; where there are several, one may be named more than once.
+    pub(super) fn walls(&self) -> impl Iterator<Item = usize> {
+        let (hops, orbit) = match self {
+            Repeated::Hops(hops) => (Some(hops.wall), None),
+            Repeated::Orbit(orbit) => (None, Some(orbit.legs.iter().map(|leg| leg.wall))),
+        };
+        hops.into_iter().chain(orbit.into_iter().flatten())
     }
 
-    /// Number of hops that are over at time `t`, s.
-    pub(super) fn done(&self, t: f64) -> u64 {
-        (((t - self.line.t) / self.period()) as u64).min(self.count)
+    /// Number of impacts up to time `t`, s.
+    fn impacts(&self, t: f64) -> u64 {
+        match self {
+            Repeated::Hops(hops) => hops.done(t),
+            Repeated::Orbit(orbit) => orbit.impacts(t),
+        }
     }
 
     /// The sphere at time `t`, s.
     pub(super) fn at(&self, t: f64) -> Trajectory {
-        let (since, done) = (t - self.line.t, self.done(t));
-        let hop = (since - done as f64 * self.period()).clamp(0.0, self.period());
-        let [way, slip] = self.slid(since, (done, hop));
-        let up = (self.speed - 0.5 * self.press * hop) * hop;
-        let x = self.line.x + way + self.normal * up;
-        Trajectory { x, v: slip + self.normal * (self.speed - self.press * hop), t, r: self.line.r }
-    }
-
-    /// How far along the face the sphere has come (m), and how fast it slides (m/s), `since` the first hop began (s), so many
-    /// hops and a part of one (s) later.
-    fn slid(&self, since: f64, (done, hop): (u64, f64)) -> [DVec3; 2] {
-        let [slip, pull] = [self.along(self.line.v), self.along(self.a)];
-        if !self.rubs() {
-            return [(slip + pull * (0.5 * since)) * since, slip + pull * since];
+        match self {
+            Repeated::Hops(hops) => hops.at(t),
+            Repeated::Orbit(orbit) => orbit.at(t),
         }
-        let left = power(self.keeps, done);
-        [self.way() * (1.0 - left) + slip * (left * hop), slip * left]
     }
 
-    /// Whether the wall rubs.
-    fn rubs(&self) -> bool {
-        self.keeps < 1.0
-    }
-
-    /// All the way that a wall that rubs leaves the sphere to slide, m: Σ v τᵏ T.
-    fn way(&self) -> DVec3 {
-        self.along(self.line.v) * (self.period() / (1.0 - self.keeps))
-    }
-
-    /// What moves the sphere around the hops along the face: its velocity (m/s), and its acceleration (m/s²).
-    pub(super) fn slide(&self) -> [DVec3; 2] {
-        if self.rubs() { [DVec3::ZERO; 2] } else { [self.along(self.line.v), self.along(self.a)] }
-    }
-
-    /// Where the foot of the sphere begins, and where a wall that rubs lets it come to, m.
-    pub(super) fn feet(&self) -> [DVec3; 2] {
-        [self.line.x, if self.rubs() { self.line.x + self.way() } else { self.line.x }]
-    }
-
-    /// Whether hop follows hop as these tell: the wall does not rub; or nothing pulls the sphere along it, all of the way that
-    /// is left is less than its gap may be, and the energy that is left to rub away, untold, is rounding.
-    pub(super) fn is_series(&self) -> bool {
-        let (slip, r) = (self.along(self.line.v), self.line.r);
-        let pulled = self.along(self.a).length() > SUM * self.a.length();
-        let near = self.way().length() <= TOUCHED_GAP * r;
-        !self.rubs() || (!pulled && near && 0.5 * slip.length_squared() <= UNTOLD * self.press * r)
-    }
-
-    /// Rounding of the sphere's place, m.
-    fn rounding(&self) -> f64 {
-        HOP * self.line.x.abs().max_element().max(self.line.r)
-    }
-
-    /// The sphere around all of the hop, and all of what a wall that rubs leaves it to slide, sliding along a face that does
-    /// not.
+    /// The sphere around all of the way, sliding along the walls.
     pub(super) fn hull(&self) -> Trajectory {
-        let Trajectory { t, r, .. } = self.line;
-        let ([from, to], [slip, _]) = (self.feet(), self.slide());
-        let (up, aside) = (0.5 * self.height(), 0.5 * from.distance(to));
-        Trajectory { x: (from + to) * 0.5 + self.normal * up, v: slip, t, r: r + up + aside + self.rounding() }
+        match self {
+            Repeated::Hops(hops) => hops.hull(),
+            Repeated::Orbit(orbit) => orbit.hull(),
+        }
     }
-}
 
-/// The power xⁿ, by squares.
-fn power(x: f64, mut n: u64) -> f64 {
-    let (mut square, mut product) = (x, 1.0);
-    while n > 0 {
-        product *= if n % 2 == 1 { square } else { 1.0 };
-        square *= square;
-        n /= 2;
+    /// What moves that along: its velocity (m/s), and its acceleration (m/s²).
+    pub(super) fn slide(&self) -> [DVec3; 2] {
+        match self {
+            Repeated::Hops(hops) => hops.slide(),
+            Repeated::Orbit(orbit) => orbit.slide(),
+        }
     }
-    product
+
+    /// Acceleration of the sphere itself, m/s².
+    pub(super) fn acceleration(&self) -> DVec3 {
+        match self {
+            Repeated::Hops(hops) => hops.a,
+            Repeated::Orbit(orbit) => orbit.a,
+        }
+    }
+
+    /// Whether all of the way stays where it is: walls that it has not met yet it will never meet.
+    fn is_still(&self) -> bool {
+        matches!(self, Repeated::Orbit(_)) && self.slide() == [DVec3::ZERO; 2]
+    }
+
+    /// Memory that it takes beside its own size, bytes.
+    fn bytes(&self) -> usize {
+        match self {
+            Repeated::Hops(_) => 0,
+            Repeated::Orbit(orbit) => size_of::<Orbit>() + size_of_val(&*orbit.legs),
+        }
+    }
 }
 
 /// How often a sphere has bounced on a wall in a row, nothing else happening to it.
@@ -167,16 +128,23 @@ struct Row {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Hopping {
     rows: BTreeMap<usize, Row>,
-    now: BTreeMap<usize, Hops>,
-    /// Hops of this frame that are over: the sphere, its hops, and when they were over, s.
-    past: Vec<(usize, Hops, f64)>,
+    orbit_rows: BTreeMap<usize, OrbitRow>,
+    now: BTreeMap<usize, Repeated>,
+    /// What of this frame is over: the sphere, what it repeated, and until when, s.
+    past: Vec<(usize, Repeated, f64)>,
 }
 
 impl Hopping {
-    /// The wall that a sphere hops on, with which it has no other contact meanwhile.
+    /// Whether a sphere hops on a wall, with which it has no other contact meanwhile.
     #[inline]
-    pub(super) fn wall(&self, i: usize) -> Option<usize> {
-        if self.now.is_empty() { None } else { self.now.get(&i).map(|hops| hops.wall) }
+    pub(super) fn strikes(&self, i: usize, wall: usize) -> bool {
+        !self.now.is_empty() && self.now.get(&i).is_some_and(|repeated| repeated.walls().any(|own| own == wall))
+    }
+
+    /// The walls that a sphere hops on; none if it hops on none, or if all of its way stays where it is, so that no other
+    /// wall comes closer.
+    pub(super) fn moving_on(&self, i: usize) -> Option<impl Iterator<Item = usize>> {
+        self.now.get(&i).filter(|repeated| !repeated.is_still()).map(Repeated::walls)
     }
 
     /// Whether a sphere hops.
@@ -191,36 +159,37 @@ impl Hopping {
         if self.now.is_empty() {
             return Plan::IDLE;
         }
-        let contact = |hops: &Hops| Plan {
-            contact: hops.end(),
-            kind: Kind::Wall,
-            other: hops.wall as u32,
-            is_contact: true,
-            ..Plan::IDLE
+        let contact = |repeated: &Repeated| {
+            let wall = repeated.walls().next().expect("something is struck");
+            Plan { contact: repeated.end(), kind: Kind::Wall, other: wall as u32, is_contact: true, ..Plan::IDLE }
         };
         self.now.get(&i).map_or(Plan::IDLE, contact)
     }
 
     /// Puts the spheres that hop at the time of a state of this frame to where they are in their hops.
     pub(super) fn write_into(&self, state: &mut State) {
-        let current = self.now.iter().map(|(&i, hops)| (i, *hops));
-        let over = self.past.iter().filter(|&&(.., until)| until > state.t).map(|&(i, hops, _)| (i, hops));
-        for (i, hops) in current.chain(over).filter(|(_, hops)| hops.line.t <= state.t) {
-            let line = hops.at(state.t);
+        let current = self.now.iter().map(|(&i, repeated)| (i, repeated));
+        let over = self.past.iter().filter(|(.., until)| *until > state.t).map(|(i, repeated, _)| (*i, repeated));
+        for (i, repeated) in current.chain(over).filter(|(_, repeated)| repeated.begin() <= state.t) {
+            let line = repeated.at(state.t);
             (state.x[i], state.v[i]) = (line.x, line.v);
         }
     }
 
     /// Memory that they take beside their own size, bytes, as near as their numbers tell.
     pub(super) fn bytes(&self) -> usize {
+        let repeated = self.now.values().chain(self.past.iter().map(|(_, repeated, _)| repeated));
         self.rows.len() * size_of::<(usize, Row)>()
-            + self.now.len() * size_of::<(usize, Hops)>()
+            + self.orbit_rows.len() * size_of::<(usize, OrbitRow)>()
+            + self.orbit_rows.values().map(OrbitRow::bytes).sum::<usize>()
+            + self.now.len() * size_of::<(usize, Repeated)>()
             + size_of_val(&*self.past)
+            + repeated.map(Repeated::bytes).sum::<usize>()
     }
 
     /// Number of impacts up to time `t` (s) of the hops under way.
     pub(super) fn impacts(&self, t: f64) -> u64 {
-        self.now.values().map(|hops| hops.done(t)).sum()
+        self.now.values().map(|repeated| repeated.impacts(t)).sum()
     }
 
     /// Whether no sphere hops.
@@ -229,14 +198,14 @@ impl Hopping {
     }
 
     /// Has a sphere hop on.
-    pub(super) fn put(&mut self, i: usize, hops: Hops) {
-        self.now.insert(i, hops);
+    pub(super) fn put(&mut self, i: usize, repeated: Repeated) {
+        self.now.insert(i, repeated);
     }
 
     /// A copy of which states from `time` (s) on can be read, and none before.
     pub(super) fn since(&self, time: f64) -> Hopping {
-        let past = self.past.iter().filter(|&&(.., until)| until > time).copied().collect();
-        Hopping { rows: self.rows.clone(), now: self.now.clone(), past }
+        let past = self.past.iter().filter(|(.., until)| *until > time).cloned().collect();
+        Hopping { rows: self.rows.clone(), orbit_rows: self.orbit_rows.clone(), now: self.now.clone(), past }
     }
 
     /// Forgets what is over.
@@ -253,16 +222,35 @@ impl Hopping {
         row.count >= row.enough
     }
 
-    /// Ends the hops of a sphere at `now`, s; what they were.
-    pub(super) fn take(&mut self, i: usize, now: f64) -> Option<Hops> {
-        let hops = self.now.remove(&i)?;
-        self.past.push((i, hops, now));
-        let short = hops.done(now) < FEWEST;
-        if let Some(row) = self.rows.get_mut(&i) {
+    /// Counts a low impact of a sphere that has moved as it did since `since` (s), accelerating with `a` (m/s²), on walls that
+    /// leave the share `keeps` of what slides; the orbit that it is on, once that is plain. One ulp of the clock is
+    /// `clock_ulp`, s.
+    pub(super) fn orbit(
+        &mut self,
+        i: usize,
+        (leg, since): (Leg, f64),
+        motion: (DVec3, f64),
+        clock_ulp: f64,
+    ) -> Option<Orbit> {
+        self.orbit_rows.entry(i).or_insert_with(|| OrbitRow::new(leg)).note(leg, since, motion, clock_ulp)
+    }
+
+    /// Ends at `now` (s) what a sphere repeats; what it was.
+    pub(super) fn take(&mut self, i: usize, now: f64) -> Option<Repeated> {
+        let repeated = self.now.remove(&i)?;
+        if let (Repeated::Hops(hops), Some(row)) = (&repeated, self.rows.get_mut(&i)) {
+            let short = hops.done(now) < FEWEST;
             row.last = now;
             row.enough = if short { LAST.min(2 * row.enough) } else { FIRST };
             row.count = if short { 0 } else { FIRST };
         }
-        Some(hops)
+        if let Repeated::Orbit(orbit) = &repeated
+            && now >= orbit.end()
+            && let Some(row) = OrbitRow::after(orbit)
+        {
+            self.orbit_rows.insert(i, row);
+        }
+        self.past.push((i, repeated.clone(), now));
+        Some(repeated)
     }
 }

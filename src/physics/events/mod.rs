@@ -15,7 +15,8 @@
 //! | `bounce`, `bounce_series`, `rub` | corrections of a bounce; series of bounces in closed form |
 //! | `chattering`, `instant`, `impacts` | what impacts have led to: small bounces in a row, chains at one instant |
 //! | `long_chain`, `last_impacts`, `repeated_round` | a chain of impacts that repeats a round at one place: many rounds at once |
-//! | `hopping`, `hop_on` | a sphere that takes the same low hop on a face again and again: many hops at once |
+//! | `hopping`, `hop_on` | a sphere that repeats the same low flights between faces: many at once |
+//! | `hops`, `orbit` | equal hops on one face; a periodic orbit between several |
 //! | `squeezed` | spheres that just fit between walls |
 //! | `islands` | resting contacts, solved island by island: what holds, and how the spheres move on |
 //! | `curved` | islands without a parabola: the motion over edges, corners and spheres |
@@ -34,6 +35,7 @@ pub(super) mod detector;
 pub(super) mod engine;
 mod hop_on;
 mod hopping;
+mod hops;
 mod impact;
 mod impacts;
 mod initial_contacts;
@@ -42,6 +44,7 @@ mod islands;
 mod last_impacts;
 mod long_chain;
 mod mechanics;
+mod orbit;
 mod plain_pair;
 mod record;
 mod repeated_round;

@@ -1,6 +1,6 @@
 //! Fast path of an impact: two free spheres of equal acceleration that approach faster than what may rest, nothing being at
-//! rest in the scene, as nearly all pairs of a gas do. Same bits as the general impact (`impact`), with each record read
-//! once.
+//! rest or hopping in the scene, as nearly all pairs of a gas do. Same bits as the general impact (`impact`), with each
+//! record read once.
 
 use super::contact_state::ContactState;
 use super::mechanics::Mechanics;
@@ -69,7 +69,7 @@ impl Mechanics {
         slot: usize,
         plan: &Plan,
     ) -> Result<bool, Stall> {
-        if plan.kind != Kind::Pair || !self.rests.is_empty() {
+        if plan.kind != Kind::Pair || !self.rests.is_empty() || !self.trajectories.hopping.is_empty() {
             return Ok(false);
         }
         let now = self.trajectories.now;

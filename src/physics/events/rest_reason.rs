@@ -28,7 +28,8 @@ pub enum RestReason {
     /// counts as closed there.
     HeldDown,
     /// More than a hundred small bounces (opening by less than 1e-7 r) in a row, and more than 50/(1 − e), have not died
-    /// out by restitution: other contacts feed them. The limit is that all rest together.
+    /// out by restitution: other contacts feed them. The limit is that all rest together. Of elastic ones, more than a
+    /// thousand that coordinates cannot tell from none, or that open by less than 1e-12 r in a scene whose walls rub.
     Chatter,
     /// Inelastic collapse (McNamara, Young, Phys. Fluids A 4, 496, 1992): a chain of more than a thousand events at one
     /// instant whose contacts lose e⁻⁵⁰ of their speed, or come down to its rounding.

@@ -21,6 +21,7 @@
 //! | [`SHARED_POINT`] | place of a seam | 1e-15 r | a sphere sinks in beyond a seam | walls hold too early |
 //! | [`TOUCHED_GAP`] | gap right after an impact | 1e-15 r | the energy of low bounces drifts | a graze counts as a bounce |
 //! | [`SUMMED_HOP`] | height of a bounce | – | millions of events before a rest | visible bounces are summed up |
+//! | [`UNTOLD`] | energy of sliding that repeated flights may lose untold | – | rubbed hops are followed one by one | energies of frames are off |
 //! | [`PULLED`] | way pulled while bounces are summed | – | millions of events before a rest | the sum misses the pull |
 //! | [`SLOW`] | a slide's normal velocity | 1e-15 of the speed | what slides is pressed by the wrong part | more work |
 //! | [`APART`] | gap of an idle contact | up to 1e-11 r | rests that hold are not told | rests are told that are over |
@@ -86,6 +87,10 @@ pub(crate) const TOUCHED_GAP: f64 = 1e-9;
 /// Bounces whose hops are lower than this many radii are summed up in closed form.
 pub(crate) const SUMMED_HOP: f64 = 1e-12;
 
+/// Largest energy of sliding that flights followed at once may rub away before they are told, in units of what a fall by the
+/// radius gains: no more than a tenth of what the energy of a frame may be off by.
+pub(crate) const UNTOLD: f64 = 1e-12;
+
 /// How far a sphere that something else holds may be pulled while bounces that are summed up go on, in radii.
 pub(crate) const PULLED: f64 = 1e-9;
 
@@ -113,7 +118,7 @@ pub(crate) const LONG_ROW: u32 = 100;
 /// Number of impacts, in units of 1 / (1 − e), after which restitution alone leaves e⁻⁵⁰ of the speed.
 pub(crate) const DECAY: f64 = 50.0;
 
-/// Elastic bounces in a row that coordinates cannot tell from none.
+/// Elastic bounces in a row that coordinates cannot tell from none, or, beside walls that rub, lower than [`SUMMED_HOP`].
 pub(crate) const ELASTIC_ROW: u32 = 1000;
 
 /// A row is fed if its last impulses are no more than this many times what all bodies weigh meanwhile: whatever is piled

@@ -23,5 +23,6 @@ pub(super) const DESCRIPTION: Description = Description {
     knobs: "none: dt only sets the frames that are shown, the tolerance is not used",
     avoid: "crowds that settle with restitution below 1: their events come ever faster (of fifty spheres that fall into a \
             box half a second takes 0.3 s of the processor at most, the next half second up to 5 s; of three hundred half \
-            a second takes 9 s); what rattles without loss in a gap, millions of times a second, impact by impact",
+            a second takes 9 s); spheres that bounce without loss on each other in a narrow place, millions of times a second, \
+            impact by impact",
 };

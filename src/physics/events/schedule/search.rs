@@ -60,7 +60,7 @@ impl<D: Detector> Search<'_, D> {
         let (i, r) = (self.trajectories.sphere(self.slot), self.trajectories.records[self.slot].trajectory.r);
         let mut count = 0;
         for wall in walls {
-            if self.rests.holds((Kind::Wall, i, wall)) || self.trajectories.hopping.wall(i) == Some(wall) {
+            if self.rests.holds((Kind::Wall, i, wall)) || self.trajectories.hopping.strikes(i, wall) {
                 continue;
             }
             count += 1;
@@ -84,7 +84,8 @@ impl<D: Detector> Search<'_, D> {
     }
 
     /// Whether the sphere, of radius `r` (m), approaches a wall from no farther than its coordinates tell: of one that is sent
-    /// to and fro there the clock would go on without its coming closer, and what else moves meanwhile would overlap it.
+    /// to and fro there the clock would go on without its coming closer, and what else moves meanwhile would overlap it. An
+    /// approach that stops by itself sooner than the clock can tell is none.
     #[inline]
     fn is_there(&self, wall: usize, r: f64) -> bool {
         let (face, x) = (&self.model.faces[wall], self.path.x);
@@ -93,7 +94,8 @@ impl<D: Detector> Search<'_, D> {
         away > -least && away <= least && !face.is_farther(x, r + least) && {
             let at = touch(face, x, r);
             let v_n = normal_velocity(self.path.v, DVec3::ZERO, at.normal);
-            at.gap > 0.0 && at.gap <= least && v_n < -BRUSH * self.path.v.length()
+            let turns = at.normal.dot(self.path.a).max(0.0) * self.trajectories.clock_ulp();
+            at.gap > 0.0 && at.gap <= least && -v_n > turns.max(BRUSH * self.path.v.length())
         }
     }
 
@@ -101,8 +103,9 @@ impl<D: Detector> Search<'_, D> {
     /// there on is not found. The next tile of the floor that it hops on is none.
     #[inline]
     fn is_in_the_way(&self, wall: usize, r: f64) -> bool {
-        let hops_on = self.trajectories.hopping.wall(self.trajectories.sphere(self.slot));
-        hops_on.is_some_and(|own| self.is_beside(&self.model.faces[own], &self.model.faces[wall], r))
+        let (i, hopping) = (self.trajectories.sphere(self.slot), &self.trajectories.hopping);
+        let is_beside = |own: usize| self.is_beside(&self.model.faces[own], &self.model.faces[wall], r);
+        hopping.holds(i) && hopping.moving_on(i).is_some_and(|mut own| own.all(is_beside))
     }
 
     /// Whether a sphere of radius `r` (m) that hops on its `own` face is within a face that does not lie in the same plane.
