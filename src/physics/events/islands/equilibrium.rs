@@ -45,11 +45,12 @@ pub(crate) struct Settled {
 ///
 /// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
 /// clock or the coordinates can tell is closed.
-/// `loads` (N, by contact) are what they carried last; what is `stuck`, by contact, will be held even if it opens.
+/// `loads` (N, by contact) are what they carried last; what is `stuck` will be held even if it opens:
+/// by contact, the approach (m/s) from which on it must be closed; infinite of what is not.
 pub(crate) fn solve_island(
     bodies: &mut [Body],
     contacts: &[Closed],
-    (loads, stuck): (&[f64], &[bool]),
+    (loads, stuck): (&[f64], &[f64]),
     tick: f64,
 ) -> Settled {
     let (resting, gaps): (Short<Resting>, Short<f64>) =
@@ -259,7 +260,7 @@ impl Settled {
         &mut self,
         bodies: &mut [Body],
         inverse_mass: &[f64],
-        (resting, stuck): (&[Resting], &[bool]),
+        (resting, stuck): (&[Resting], &[f64]),
         slack: &[f64],
     ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
@@ -293,7 +294,7 @@ impl Settled {
         &self,
         before: &[DVec3],
         inverse_mass: &[f64],
-        (resting, stuck): (&[Resting], &[bool]),
+        (resting, stuck): (&[Resting], &[f64]),
         power: f64,
     ) -> (Vec<DVec3>, Short<bool>) {
         let mut holds: Short<bool> = self.fate.iter().map(|fate| *fate == Fate::Loaded).collect();
@@ -311,8 +312,9 @@ impl Settled {
             let approaches = |index: usize| {
                 let contact = &resting[index];
                 let noise = precision(contact) * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
-                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some() || stuck[index];
-                may_close && relative(contact, &|body| v[body]).dot(contact.normal) < -noise
+                let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
+                let least = if may_close { noise } else { stuck[index] };
+                relative(contact, &|body| v[body]).dot(contact.normal) < -least
             };
             let new: Short<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();
             if new.is_empty() {

@@ -10,7 +10,7 @@ use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::bodies::Body;
 use crate::physics::events::mechanics::Mechanics;
 use crate::physics::events::rest_reason::RestReason;
-use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, PAUSE, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
+use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, HOP, PAUSE, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
@@ -257,7 +257,7 @@ impl Mechanics {
         let Members { spheres, mut bodies, contacts } = self.members(model, keys);
         let loads: Short<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
         let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
-        let stuck: Short<bool> = keys.iter().map(|&key| self.impacts.instant.sticks(key)).collect();
+        let stuck = self.stuck_speeds(keys, &bodies);
         let settled = solve_island(&mut bodies, &closed(model, &contacts), (&loads, &stuck), tick);
         if !settled.converged {
             return Err(self.not_held(keys));
@@ -352,6 +352,18 @@ impl Mechanics {
         let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
         let squared = bodies.iter().map(of).fold(f64::INFINITY, f64::min);
         (PAUSE * squared.sqrt()).max(CLOCK_ULPS * self.trajectories.clock_ulp())
+    }
+
+    /// By contact, the approach (m/s) that while it is held for a moment would drive a body in by more than coordinates tell;
+    /// infinite of contacts that are not stuck.
+    fn stuck_speeds(&self, keys: &[Key], bodies: &[Body]) -> Short<f64> {
+        let sticks = |key: &Key| self.impacts.instant.sticks(*key);
+        if !keys.iter().any(sticks) {
+            return Short::from_elem(f64::INFINITY, keys.len());
+        }
+        let size = bodies.iter().map(|body| body.x.abs().max_element().max(body.r)).fold(0.0, f64::max);
+        let fastest = HOP * size / self.pause(bodies);
+        keys.iter().map(|key| if sticks(key) { fastest } else { f64::INFINITY }).collect()
     }
 
     /// What some connected contacts name, at the present.
