@@ -9,8 +9,8 @@ use super::finding::{Bodies, Fault, Findings};
 /// Ulps of the energy's terms that a run may gain at first; each impact may add one.
 const ULPS: f64 = 4096.0;
 
-/// Ulps of their places by which bodies pressed on each other may be off: along a line of spheres that just fits between
-/// walls, loads of 1e11 N hold a weight of 10 N, and one ulp of a place is worth as much as the weight falls by.
+/// Ulps of their places by which bodies pressed on each other may be off. In a line of spheres that just fits between walls,
+/// loads of 1e11 N hold up a weight of 10 N; there an ulp of a place, 1e-16 m, is worth 1e-5 J.
 const PRESSED_ULPS: f64 = 4.0;
 
 /// Share of the energy's terms that the motion of one frame may lose: curved rest is integrated to some digits less.

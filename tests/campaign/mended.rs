@@ -30,8 +30,8 @@ pub(crate) const LABORIOUS: [(u64, u32); 73] = [
 
 /// Stacks that stood still at an instant, or took a thousand settlements for one contact that let go; where to clear the
 /// velocities closed what had opened, and nothing asked whether it carries; or that hopped on an elastic wall that rubs, each
-/// of millions of hops alone; and one in which what is held for a moment was closed though it hardly approached, and let go
-/// again sooner than the clock can tell.
+/// of millions of hops alone; and one that crept by some ulp of the clock, two contacts of 1e-15 m/s let go and met in turn,
+/// when what is held for a moment was closed however little it approached.
 pub(crate) const MENDED_STACKS: [(u64, u32); 7] =
     [(16, 3), (118, 2), (148, 2), (3897, 1), (4473, 1), (5869, 1), (11186, 1)];
 
