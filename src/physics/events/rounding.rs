@@ -39,7 +39,7 @@
 //! | [`MEMORY`] | what each impact leaves of a row's sums | – | one impact decides | what is long past decides |
 //! | [`LONG_CHAIN`] | events at one instant | a few | more work | more work |
 //! | [`SHARE`] | impacts of one contact in a collapse | – | a bystander rests with it | a collapse rests piece by piece |
-//! | [`STUCK`] | releases of one contact at one instant | 1 or 2 | islands pause that would let go | more work |
+//! | [`STUCK`] | releases of one contact at an instant or, creeping, in a pause | 1 or 2 | islands pause that would let go | more work |
 
 /// Flights shorter than this many ulp of the clock never decay: what is left of one is a rounding of its beginning (Zeno).
 pub(crate) const CLOCK_ULPS: f64 = 10.0;
@@ -84,7 +84,7 @@ pub(crate) const SHARED_POINT: f64 = 1e-8;
 /// while.
 pub(crate) const TOUCHED_GAP: f64 = 1e-9;
 
-/// Bounces whose hops are lower than this many radii are summed up in closed form.
+/// Bounces whose hops are lower than this many radii are summed up in closed form, and what rests and is pressed hops no lower.
 pub(crate) const SUMMED_HOP: f64 = 1e-12;
 
 /// Largest energy of sliding that flights followed at once may rub away before they are told, in units of what a fall by the
@@ -135,5 +135,6 @@ pub(crate) const LONG_CHAIN: u64 = 1000;
 /// that none of them approaches any longer.
 pub(crate) const SHARE: u32 = 100;
 
-/// Releases of one contact without the clock advancing after which it is held for a moment.
+/// Releases of one contact without the clock advancing, or by speeds that coordinates do not tell within [`PAUSE`], after
+/// which it is held for a moment.
 pub(crate) const STUCK: u32 = 20;

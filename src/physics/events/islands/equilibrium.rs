@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, power, pull};
-use crate::physics::events::rounding::{BRUSH, HOP, SUM};
+use crate::physics::events::rounding::{BRUSH, HOP, SUM, SUMMED_HOP};
 use crate::physics::support::{
     Bodies, Fate, Resting, Row, Short, Surface, accelerations, restore, restore_unmet, velocities,
 };
@@ -154,7 +154,12 @@ fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Short<Row> {
 /// (`tick`, s) or the coordinates can tell.
 pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
     let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
-    tick * pull + SUM * body.v.length() + (2.0 * pull * HOP * size).sqrt()
+    tick * pull + SUM * body.v.length() + hop_speed(body, HOP * size)
+}
+
+/// Speed (m/s) with which a body hops so high, m, against what pulls it.
+fn hop_speed(body: &Body, height: f64) -> f64 {
+    (2.0 * body.applied.length() * height).sqrt()
 }
 
 /// The vector u of the first body less that of the second.
@@ -171,11 +176,13 @@ impl Settled {
         (resting, gaps): (&[Resting], &[f64]),
         (loads, slack): (&[f64], &[f64]),
     ) {
-        let opens = |contact: &Resting| {
-            let slack = slack[contact.a] + contact.b.map_or(0.0, |b| slack[b]);
+        let opens = |contact: &Resting, slack: &dyn Fn(usize) -> f64| {
+            let slack = slack(contact.a) + contact.b.map_or(0.0, slack);
             relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
         };
-        let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index])).collect();
+        // where what presses a contact would end its hop so low that bounces are summed up, it need not begin
+        let low = |body: usize| slack[body].max(hop_speed(&bodies[body], SUMMED_HOP * bodies[body].r));
+        let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index], &low)).collect();
         let touching: Short<Resting> = closed.iter().map(|&index| resting[index]).collect();
         let after: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let guess: Short<f64> = closed.iter().map(|&index| loads[index]).collect();
@@ -191,7 +198,10 @@ impl Settled {
         }
         self.curved = closed.iter().any(|&index| self.forces[index] > 0.0 && self.turns(&resting[index], bodies));
         for &index in &closed {
-            self.fate[index] = self.fate_of(index, (&resting[index], gaps[index]), bodies);
+            let pressed = self.forces[index] > 0.0;
+            if pressed || !opens(&resting[index], &|body| slack[body]) {
+                self.fate[index] = self.fate_of(index, (&resting[index], gaps[index]), bodies);
+            }
         }
     }
 
@@ -253,9 +263,9 @@ impl Settled {
 
     /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
     /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
-    /// push one body alone, out of nothing. By no more than rounding: of two walls that are nearly one, to
-    /// stand still on both would stop the motion along them, and the one that opens lets go instead. Returns the contacts
-    /// that were open and are closed by that.
+    /// push one body alone, out of nothing. A wall that opens is closed too, lest the sphere be driven into it, but by no more
+    /// than rounding: of two walls that are nearly one, to stand still on both would stop the motion along them, and the
+    /// one that opens lets go instead. Returns the contacts that were open and are closed by that.
     fn clear_normal_velocity(
         &mut self,
         bodies: &mut [Body],
@@ -264,14 +274,23 @@ impl Settled {
         slack: &[f64],
     ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
         let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
+        let every = Short::from_elem(0.0, resting.len());
+        let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
+        let opened = |index: usize| holds[index] && self.fate[index] == Fate::Opening && resting[index].b.is_none();
+        if (0..holds.len()).any(opened) && v.iter().enumerate().any(costs) {
+            (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
+        }
+        let dear = v.iter().enumerate().any(costs);
+        let beside = (0..holds.len()).any(|index| holds[index] && self.fate[index] != Fate::Loaded);
         let opens = |index: usize| {
-            let noise = SUM * before[resting[index].a].length();
-            holds[index] && relative(&resting[index], &|body| before[body]).dot(resting[index].normal) > noise
+            let v_n = |v: &[DVec3]| relative(&resting[index], &|body| v[body]).dot(resting[index].normal);
+            // a contact that stays open because another one would be driven in cannot hold with that
+            let stays = || beside && v_n(&v) > 0.5 * v_n(&before);
+            holds[index] && v_n(&before) > SUM * before[resting[index].a].length() && (dear || stays())
         };
         let opening: Short<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
-        if !opening.is_empty() && v.iter().enumerate().any(costs) {
+        if !opening.is_empty() {
             opening.into_iter().for_each(|index| self.fate[index] = Fate::Opening);
             return Short::new();
         }
@@ -313,7 +332,7 @@ impl Settled {
                 let contact = &resting[index];
                 let noise = precision(contact) * (v[contact.a].length() + contact.b.map_or(0.0, |b| v[b].length()));
                 let may_close = self.fate[index] == Fate::Idle || contact.b.is_some();
-                let least = if may_close { noise } else { stuck[index] };
+                let least = if may_close { noise } else { stuck[index].max(noise) };
                 relative(contact, &|body| v[body]).dot(contact.normal) < -least
             };
             let new: Short<usize> = (0..holds.len()).filter(|&index| !holds[index] && approaches(index)).collect();

@@ -1,9 +1,11 @@
 //! Resting contacts: which hold, what they carry, and how the spheres that they connect move on together.
 //!
 //! `resting` keeps them, with the islands that they form; `settling` is what events do to islands, and solves those that
-//! have changed once no contact is left at an instant; `equilibrium` solves one island; `loads` is what contacts carry.
+//! have changed once no contact is left at an instant; `equilibrium` solves one island; `loads` is what contacts carry;
+//! `releases` finds those that let go again and again.
 
 pub(super) mod equilibrium;
 pub(super) mod loads;
+mod releases;
 pub(super) mod resting;
 pub(super) mod settling;

@@ -5,6 +5,7 @@ use std::sync::Arc as Shared;
 
 use glam::DVec3;
 
+use super::releases::Releases;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::arc::Arc;
@@ -211,6 +212,8 @@ pub(crate) struct Rests {
     pub(super) past: Vec<Past>,
     /// When the frame under way began, s.
     pub(super) frame_start: f64,
+    /// Contacts that let go again and again.
+    pub(super) releases: Releases,
     /// Number of arcs in a row that were over at once.
     pub(super) hurried: u32,
     /// Number of islands that move on a curve.
@@ -452,6 +455,7 @@ impl Rests {
             island_of: self.island_of.clone(),
             dirty: self.dirty.clone(),
             past,
+            releases: self.releases.clone(),
             ..*self
         }
     }

@@ -271,7 +271,7 @@ impl Mechanics {
         let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
         let opening: Short<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
         let (stuck, opening): (Short<Key>, Short<Key>) =
-            opening.into_iter().partition(|&key| self.impacts.instant.is_stuck(key));
+            opening.into_iter().partition(|&key| self.is_stuck(model, key, &bodies));
         if opening.is_empty() {
             let members = Members { spheres, bodies, contacts };
             self.begin_motion(model, keys, members, (settled.a, settled.forces, settled.curved), stuck);
@@ -354,15 +354,30 @@ impl Mechanics {
         (PAUSE * squared.sqrt()).max(CLOCK_ULPS * self.trajectories.clock_ulp())
     }
 
-    /// By contact, the approach (m/s) that while it is held for a moment would drive a body in by more than coordinates tell;
+    /// Whether a contact that opens has let go too often, at this instant or, where it opens by less than coordinates tell,
+    /// within a pause: it is held for one.
+    fn is_stuck(&mut self, model: &Model, key: Key, bodies: &[Body]) -> bool {
+        let (now, pause) = (self.trajectories.now, self.pause(bodies));
+        let creeps = self.trajectories.contact_state(model, key).v_n <= self.creeping_speed(bodies);
+        let again = creeps && self.rests.releases.is_stuck(key, now, pause);
+        self.impacts.instant.is_stuck(key) || again
+    }
+
+    /// Fastest speed (m/s) that during a pause moves no body by more than coordinates tell.
+    fn creeping_speed(&self, bodies: &[Body]) -> f64 {
+        let size = bodies.iter().map(|body| body.x.abs().max_element().max(body.r)).fold(0.0, f64::max);
+        HOP * size / self.pause(bodies)
+    }
+
+    /// By contact, the approach (m/s) from which on it must be closed, lest it be driven in while it is held for a moment;
     /// infinite of contacts that are not stuck.
     fn stuck_speeds(&self, keys: &[Key], bodies: &[Body]) -> Short<f64> {
-        let sticks = |key: &Key| self.impacts.instant.sticks(*key);
+        let now = self.trajectories.now;
+        let sticks = |key: &Key| self.impacts.instant.sticks(*key) || self.rests.releases.sticks(*key, now);
         if !keys.iter().any(sticks) {
             return Short::from_elem(f64::INFINITY, keys.len());
         }
-        let size = bodies.iter().map(|body| body.x.abs().max_element().max(body.r)).fold(0.0, f64::max);
-        let fastest = HOP * size / self.pause(bodies);
+        let fastest = self.creeping_speed(bodies);
         keys.iter().map(|key| if sticks(key) { fastest } else { f64::INFINITY }).collect()
     }
 

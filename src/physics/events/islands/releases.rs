@@ -1,0 +1,75 @@
+//! Contacts that rest and let go again and again: at one instant, or every time the clock can just tell.
+
+use std::collections::BTreeMap;
+
+use crate::physics::contact::Key;
+use crate::physics::events::rounding::STUCK;
+
+/// How often each contact has let go within the moment for which stuck contacts are held.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Releases {
+    counts: BTreeMap<Key, u32>,
+    /// When that moment ends, s.
+    until: f64,
+}
+
+impl Releases {
+    /// Whether a contact that lets go `now` (s) has done so too often: each time brings back another contact of its island,
+    /// which brings back this one. Held together for a moment, they are solved together. The first release opens a moment
+    /// that lasts for `pause` (s).
+    pub(super) fn is_stuck(&mut self, key: Key, now: f64, pause: f64) -> bool {
+        if self.counts.is_empty() || now > self.until {
+            self.counts.clear();
+            self.until = now + pause;
+        }
+        let count = self.counts.entry(key).or_default();
+        *count += 1;
+        *count > STUCK
+    }
+
+    /// Whether a contact has let go so often that it will be held if it opens once more `now`, s.
+    pub(super) fn sticks(&self, key: Key, now: f64) -> bool {
+        now <= self.until && self.counts.get(&key).is_some_and(|&count| count >= STUCK)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::contact::Kind;
+
+    const PAUSE: f64 = 1e-8;
+
+    /// Whether the last of some releases of one contact, this far apart (s), finds it stuck.
+    fn last_is_stuck(releases: u32, apart: f64) -> bool {
+        let mut counts = Releases::default();
+        let key = (Kind::Wall, 1, 6);
+        (0..releases).map(|n| counts.is_stuck(key, 1.0 + f64::from(n) * apart, PAUSE)).last() == Some(true)
+    }
+
+    #[test]
+    fn what_lets_go_more_than_twenty_times_within_a_pause_is_stuck() {
+        // at one instant, every hundred ulp of the clock, and 21 times in 0.95 of a pause
+        for apart in [0.0, 2e-14, PAUSE / 21.0] {
+            assert!(!last_is_stuck(STUCK, apart) && last_is_stuck(STUCK + 1, apart), "{apart}");
+        }
+    }
+
+    #[test]
+    fn what_lets_go_now_and_then_is_never_stuck() {
+        assert!(!last_is_stuck(1000, PAUSE / 19.0));
+        assert!(!last_is_stuck(1000, 1.0));
+    }
+
+    #[test]
+    fn each_contact_is_counted_by_itself_and_forgotten_after_the_pause() {
+        let mut counts = Releases::default();
+        let (wall, pair) = ((Kind::Wall, 1, 6), (Kind::Pair, 0, 3));
+        for _ in 0..STUCK {
+            assert!(!counts.is_stuck(wall, 1.0, PAUSE));
+        }
+        assert!(counts.sticks(wall, 1.0) && !counts.sticks(pair, 1.0) && !counts.sticks(wall, 1.0 + 2.0 * PAUSE));
+        assert!(!counts.is_stuck(pair, 1.0, PAUSE) && counts.is_stuck(wall, 1.0, PAUSE));
+        assert!(!counts.is_stuck(wall, 1.0 + 2.0 * PAUSE, PAUSE));
+    }
+}
