@@ -44,14 +44,15 @@ pub(super) struct Overlaps {
 /// after the next.
 const SUMMED: f64 = 1e-10;
 
-/// Whether a bounce is so low that those after it may not be told one by one.
+/// Whether a bounce is so low that those after it may not be told one by one: `swept` sums up those that do not leave the
+/// overlap within its tolerance at which the impact was found.
 pub(super) fn is_summed_up(model: &Model, row: &Contact) -> bool {
     let pull = |i: usize| model.acceleration(i).length();
     let (pull, reach) = match row.kind {
         Kind::Wall => (pull(row.a), model.radii[row.a]),
         Kind::Pair => (pull(row.a) + pull(row.b), model.radii[row.a] + model.radii[row.b]),
     };
-    row.separation_speed * row.separation_speed <= 2.0 * pull * SUMMED * reach
+    row.separation_speed * row.separation_speed <= 2.0 * pull * SUMMED.max(row.degree) * reach
 }
 
 impl Overlaps {

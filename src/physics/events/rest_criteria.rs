@@ -5,7 +5,7 @@
 
 use super::contact_state::ContactState;
 use super::curved::bodies::Body;
-use super::islands::equilibrium::closed_speed;
+use super::islands::equilibrium::held_speed;
 use super::mechanics::Mechanics;
 use super::rest_reason::RestReason;
 use super::rounding::{CLOCK_ULPS, LEVEL, SUMMED_HOP};
@@ -91,7 +91,7 @@ impl Mechanics {
     }
 
     /// Whether an impact on a wall would lift the sphere off another one that it rests on, nearly level with this one, by
-    /// no more than counts as closed there: that rest would take the impulse back, and the same impact would come again.
+    /// no more than it is held there: that rest would take the impulse back, and the same impact would come again.
     fn is_held_down(&self, model: &Model, contact: &ContactState) -> bool {
         let (kind, i, wall) = contact.key;
         if kind == Kind::Pair || self.rests.count(i) == 0 {
@@ -103,7 +103,7 @@ impl Mechanics {
             let cosine = || touch(&model.faces[other], body.x, body.r).normal.dot(contact.normal);
             kind == Kind::Wall && other != wall && cosine() >= LEVEL
         };
-        kick <= closed_speed(&body, CLOCK_ULPS * self.trajectories.clock_ulp()) && self.rests.of(i).iter().any(level)
+        kick <= held_speed(&body, CLOCK_ULPS * self.trajectories.clock_ulp()) && self.rests.of(i).iter().any(level)
     }
 
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction

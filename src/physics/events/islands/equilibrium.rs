@@ -75,7 +75,7 @@ pub(crate) fn solve_island(
         converged: stopped,
     };
     for _ in 0..ROUNDS {
-        settled.hold(bodies, all, (&resting, &gaps), (loads, &slack));
+        settled.hold(bodies, all, (&resting, &gaps), (loads, &slack), tick);
         let closed = settled.clear_normal_velocity(bodies, &inverse_mass, (&resting, stuck), &slack);
         if !closed
             .iter()
@@ -152,9 +152,15 @@ fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Short<Row> {
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
 /// (`tick`, s) or the coordinates can tell.
-pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
+fn closed_speed(body: &Body, tick: f64) -> f64 {
     let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
     tick * pull + SUM * body.v.length() + hop_speed(body, HOP * size)
+}
+
+/// Fastest v_n (m/s) at which a body that is pressed does not leave what it rests on: the bounces that its hop would end in
+/// are summed up, so that it need not begin.
+pub(crate) fn held_speed(body: &Body, tick: f64) -> f64 {
+    closed_speed(body, tick).max(hop_speed(body, SUMMED_HOP * body.r))
 }
 
 /// Speed (m/s) with which a body hops so high, m, against what pulls it.
@@ -175,13 +181,13 @@ impl Settled {
         all: Bodies,
         (resting, gaps): (&[Resting], &[f64]),
         (loads, slack): (&[f64], &[f64]),
+        tick: f64,
     ) {
         let opens = |contact: &Resting, slack: &dyn Fn(usize) -> f64| {
             let slack = slack(contact.a) + contact.b.map_or(0.0, slack);
             relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
         };
-        // where what presses a contact would end its hop so low that bounces are summed up, it need not begin
-        let low = |body: usize| slack[body].max(hop_speed(&bodies[body], SUMMED_HOP * bodies[body].r));
+        let low = |body: usize| held_speed(&bodies[body], tick);
         let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index], &low)).collect();
         let touching: Short<Resting> = closed.iter().map(|&index| resting[index]).collect();
         let after: Short<DVec3> = bodies.iter().map(|body| body.v).collect();

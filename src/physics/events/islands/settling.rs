@@ -355,10 +355,14 @@ impl Mechanics {
     }
 
     /// Whether a contact that opens has let go too often, at this instant or, where it opens by less than coordinates tell,
-    /// within a pause: it is held for one.
+    /// within a pause: it is held for one. What would have left by then is not.
     fn is_stuck(&mut self, model: &Model, key: Key, bodies: &[Body]) -> bool {
         let (now, pause) = (self.trajectories.now, self.pause(bodies));
-        let creeps = self.trajectories.contact_state(model, key).v_n <= self.creeping_speed(bodies);
+        let contact = self.trajectories.contact_state(model, key);
+        if contact.v_n * pause > SUMMED_HOP * contact.reach {
+            return false;
+        }
+        let creeps = contact.v_n <= self.creeping_speed(bodies);
         let again = creeps && self.rests.releases.is_stuck(key, now, pause);
         self.impacts.instant.is_stuck(key) || again
     }
