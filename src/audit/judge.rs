@@ -69,7 +69,7 @@ impl Judge {
         let promise = Promise::of(&self.settings);
         self.overlaps.look(model, state, contacts, promise, found);
         self.overlaps.passages(model, &self.before, state, self.settings.method, found);
-        let held = self.overlaps.held(model, contacts);
+        let held = self.overlaps.held(model, &self.settings, contacts);
         events.iter().for_each(|row| law::judge(model, self.settings.method, row, found));
         for row in contacts {
             law::judge_place(
@@ -83,7 +83,7 @@ impl Judge {
         law::judge_friction(model, contacts, &held, state.t, found);
         rest::judge(model, &self.settings, frame, found);
         let free = replay::Freedom { before: &self.held, after: &held, answered: &self.answered };
-        let explained = self.replay.judge(model, self.settings.method, [&self.before, state], (contacts, free), found);
+        let explained = self.replay.judge(model, &self.settings, [&self.before, state], (contacts, free), found);
         let impacts = contacts.iter().filter(|row| row.class == Class::Collide).count();
         self.energy.bear(model, state, contacts, state.t - self.before.t);
         self.energy.look(model, (state, hidden), impacts as u64, explained, found);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use crate::physics::contact::Key;
-use crate::physics::{Class, Contact, Kind, Method, Model, State};
+use crate::physics::{Class, Contact, Kind, Method, Model, Settings, State};
 
 use super::crowd::Crowd;
 use super::distance::{Board, boards};
@@ -44,15 +44,20 @@ pub(super) struct Overlaps {
 /// after the next.
 const SUMMED: f64 = 1e-10;
 
-/// Whether a bounce is so low that those after it may not be told one by one: `swept` sums up those that do not leave the
-/// overlap within its tolerance at which the impact was found.
-pub(super) fn is_summed_up(model: &Model, row: &Contact) -> bool {
+/// Whether a bounce is so low that those after it may not be told one by one. Out of an overlap, which its tolerance allows,
+/// `swept` also sums up bounces on a wall that rubs that are no higher than the overlap is deep.
+pub(super) fn is_summed_up(model: &Model, settings: &Settings, row: &Contact) -> bool {
     let pull = |i: usize| model.acceleration(i).length();
     let (pull, reach) = match row.kind {
         Kind::Wall => (pull(row.a), model.radii[row.a]),
         Kind::Pair => (pull(row.a) + pull(row.b), model.radii[row.a] + model.radii[row.b]),
     };
-    row.separation_speed * row.separation_speed <= 2.0 * pull * SUMMED.max(row.degree) * reach
+    let law = &model.law;
+    let rubs =
+        row.kind == Kind::Wall && law.tangential < 1.0 && law.wall_restitution > 0.0 && law.wall_restitution < 1.0;
+    let deep =
+        if settings.method == Method::Swept && rubs { row.degree.min(Promise::of(settings).flight) } else { 0.0 };
+    row.separation_speed * row.separation_speed <= 2.0 * pull * SUMMED.max(deep) * reach
 }
 
 impl Overlaps {
@@ -134,11 +139,11 @@ impl Overlaps {
 
     /// Contacts that touch without a bounce in this frame: something else may hold or stop their bodies. A
     /// bounce so low that the rest of its series may be summed up counts as held.
-    pub(super) fn held(&self, model: &Model, contacts: &[Contact]) -> BTreeSet<Key> {
+    pub(super) fn held(&self, model: &Model, settings: &Settings, contacts: &[Contact]) -> BTreeSet<Key> {
         // a contact may bounce on, lower and lower: its last impact tells
         let mut bounced = BTreeSet::new();
         for row in contacts.iter().filter(|row| row.class == Class::Collide) {
-            if restitution(model, row.kind) > 0.0 && !is_summed_up(model, row) {
+            if restitution(model, row.kind) > 0.0 && !is_summed_up(model, settings, row) {
                 bounced.insert(row.key());
             } else {
                 bounced.remove(&row.key());

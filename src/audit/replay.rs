@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use crate::physics::contact::Key;
-use crate::physics::{Class, Contact, Kind, Method, Model, State};
+use crate::physics::{Class, Contact, Kind, Method, Model, Settings, State};
 
 use super::finding::{Bodies, Fault, Findings};
 use super::law::reduced_mass;
@@ -63,7 +63,7 @@ impl Replay {
     pub(super) fn judge(
         &mut self,
         model: &Model,
-        method: Method,
+        settings: &Settings,
         [before, after]: [&State; 2],
         (contacts, free): (&[Contact], Freedom),
         findings: &mut Findings,
@@ -74,7 +74,7 @@ impl Replay {
             *scale = scale.max(v.length()).max(w.length());
         }
         let bound = free_spheres(model, free, contacts);
-        let one_by_one = matches!(method, Method::Exact | Method::Swept);
+        let one_by_one = matches!(settings.method, Method::Exact | Method::Swept);
         let mut taken = bound.slack;
         if one_by_one {
             self.find_fastest(model, &bound, [before, after]);
@@ -86,7 +86,7 @@ impl Replay {
                     Class::Leave | Class::Release => 0.0,
                 };
             }
-            taken += self.rubbed(model, contacts) + self.summed(model, contacts);
+            taken += self.rubbed(model, settings, contacts) + self.summed(model, contacts);
             for i in (0..model.len()).filter(|&i| !bound.holds[i]) {
                 self.fly(model, i, after.t);
                 let off = (after.v[i] - self.known[i].v).length();
@@ -104,13 +104,13 @@ impl Replay {
 
     /// The energy (J) that series of bounces may take which are summed up: where bounces rub, all that moves along the
     /// wall.
-    fn rubbed(&self, model: &Model, contacts: &[Contact]) -> f64 {
+    fn rubbed(&self, model: &Model, settings: &Settings, contacts: &[Contact]) -> f64 {
         let law = &model.law;
         if law.tangential == 1.0 || law.wall_restitution == 0.0 || law.wall_restitution == 1.0 {
             return 0.0;
         }
         let series = |row: &&Contact| match row.class {
-            Class::Collide => row.kind == Kind::Wall && is_summed_up(model, row),
+            Class::Collide => row.kind == Kind::Wall && is_summed_up(model, settings, row),
             Class::Rest => row.kind == Kind::Wall,
             Class::Leave | Class::Release => false,
         };

@@ -34,6 +34,11 @@ pub fn classify(v_n: f64, pressed: bool, law: &ContactLaw) -> Class {
     }
 }
 
+/// Whether no impact takes any energy.
+pub(crate) fn is_lossless(law: &ContactLaw) -> bool {
+    law.restitution == 1.0 && law.wall_restitution == 1.0 && law.tangential == 1.0
+}
+
 /// v_n after the response, m/s: −e v_n of an impact, 0 at rest, unchanged if leaving.
 #[inline]
 pub fn separation_speed(v_n: f64, class: Class, kind: Kind, law: &ContactLaw) -> f64 {

@@ -5,12 +5,12 @@
 
 use super::contact_state::ContactState;
 use super::curved::bodies::Body;
-use super::islands::equilibrium::held_speed;
+use super::islands::equilibrium::{closed_speed, hop_speed, lowest_hop};
 use super::mechanics::Mechanics;
 use super::rest_reason::RestReason;
 use super::rounding::{CLOCK_ULPS, LEVEL, SUMMED_HOP};
 use crate::physics::contact::{Class, Key, Kind};
-use crate::physics::impact_law::classify;
+use crate::physics::impact_law::{classify, is_lossless};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::wall::touch;
@@ -58,9 +58,7 @@ impl Mechanics {
             return Verdict::Rest(RestReason::Chatter);
         }
         // of a chain that collapses elastic contacts are a part too, as long as something in the scene is lossy
-        let law = &model.law;
-        let lossy = law.restitution < 1.0 || law.wall_restitution < 1.0 || law.tangential < 1.0;
-        if lossy && impacts.instant.collapses(model, trajectories, contact) {
+        if !is_lossless(&model.law) && impacts.instant.collapses(model, trajectories, contact) {
             log.tallies.collapses += 1;
             return Verdict::Rest(RestReason::Collapse);
         }
@@ -91,7 +89,7 @@ impl Mechanics {
     }
 
     /// Whether an impact on a wall would lift the sphere off another one that it rests on, nearly level with this one, by
-    /// no more than it is held there: that rest would take the impulse back, and the same impact would come again.
+    /// no more than counts as closed there: that rest would take the impulse back, and the same impact would come again.
     fn is_held_down(&self, model: &Model, contact: &ContactState) -> bool {
         let (kind, i, wall) = contact.key;
         if kind == Kind::Pair || self.rests.count(i) == 0 {
@@ -99,11 +97,17 @@ impl Mechanics {
         }
         let kick = (1.0 + model.law.wall_restitution) * -contact.v_n;
         let body = Body::of(model, &self.trajectories, i);
-        let level = |&(kind, _, other): &Key| {
-            let cosine = || touch(&model.faces[other], body.x, body.r).normal.dot(contact.normal);
-            kind == Kind::Wall && other != wall && cosine() >= LEVEL
+        let slack = closed_speed(&body, CLOCK_ULPS * self.trajectories.clock_ulp());
+        let holds = |&key: &Key| {
+            let (kind, _, other) = key;
+            if kind == Kind::Pair || other == wall {
+                return false;
+            }
+            let cosine = touch(&model.faces[other], body.x, body.r).normal.dot(contact.normal);
+            let hop = hop_speed(self.rests.pressure(model, key), lowest_hop(model) * body.r);
+            cosine >= LEVEL && kick * cosine <= slack.max(hop)
         };
-        kick <= held_speed(&body, CLOCK_ULPS * self.trajectories.clock_ulp()) && self.rests.of(i).iter().any(level)
+        self.rests.of(i).iter().any(holds)
     }
 
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction

@@ -24,8 +24,8 @@ pub enum RestReason {
     Undamped,
     /// An impact with e = 0 has just stopped it, and it is pressed: nothing is left to wait for.
     Stopped,
-    /// Another wall within 45°, on which the sphere rests, takes back any impulse off this one that would lift it by less
-    /// than the hops that are summed up.
+    /// Another wall within 45°, on which the sphere rests, takes back any impulse off this one that would lift it by no more
+    /// than coordinates or the clock tell, or, pressed and where something is lossy, by 1e-12 of its radius.
     HeldDown,
     /// More than a hundred small bounces (opening by less than 1e-7 r) in a row, and more than 50/(1 − e), have not died
     /// out by restitution: other contacts feed them. The limit is that all rest together. Of elastic ones, more than a

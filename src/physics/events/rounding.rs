@@ -84,7 +84,7 @@ pub(crate) const SHARED_POINT: f64 = 1e-8;
 /// while.
 pub(crate) const TOUCHED_GAP: f64 = 1e-9;
 
-/// Bounces whose hops are lower than this many radii are summed up in closed form, and what rests and is pressed hops no lower.
+/// Bounces whose hops are lower than this many radii are summed up in closed form, and what rests and is pressed takes none.
 pub(crate) const SUMMED_HOP: f64 = 1e-12;
 
 /// Largest energy of sliding that flights followed at once may rub away before they are told, in units of what a fall by the
@@ -101,8 +101,8 @@ pub(crate) const SLOW: f64 = 1e-6;
 /// accelerations before their island is solved again.
 pub(crate) const APART: f64 = 1e-10;
 
-/// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that they
-/// part by more than rounding, too short to be seen.
+/// How long stuck contacts are held, in units of the time in which the spheres move by a radius: long enough that the clock
+/// goes on, too short to be seen.
 pub(crate) const PAUSE: f64 = 1e-7;
 
 /// Cosine of the angle between two walls up to which an impulse off the one is mostly one off the other: 45°.
@@ -135,6 +135,6 @@ pub(crate) const LONG_CHAIN: u64 = 1000;
 /// that none of them approaches any longer.
 pub(crate) const SHARE: u32 = 100;
 
-/// Releases of one contact without the clock advancing, or by speeds that coordinates do not tell within [`PAUSE`], after
-/// which it is held for a moment.
+/// Releases of one contact without the clock advancing or, of one that creeps, within one pause, after which it is held for
+/// a moment.
 pub(crate) const STUCK: u32 = 20;

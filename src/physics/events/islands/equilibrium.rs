@@ -10,11 +10,13 @@ use glam::DVec3;
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, power, pull};
 use crate::physics::events::rounding::{BRUSH, HOP, SUM, SUMMED_HOP};
+use crate::physics::impact_law::is_lossless;
+use crate::physics::model::Model;
 use crate::physics::support::{
     Bodies, Fate, Resting, Row, Short, Surface, accelerations, restore, restore_unmet, velocities,
 };
 
-/// Cost of stopping what opens by no more than rounding, in units of that rounding, above which it is not stopped.
+/// Cost of stopping what opens, in units of what it opens by, or of rounding if that is more, above which it is not stopped.
 const DEAR: f64 = 10.0;
 
 /// Most times that an island's accelerations are solved because to clear its velocities closed what had opened.
@@ -47,11 +49,12 @@ pub(crate) struct Settled {
 /// clock or the coordinates can tell is closed.
 /// `loads` (N, by contact) are what they carried last; what is `stuck` will be held even if it opens:
 /// by contact, the approach (m/s) from which on it must be closed; infinite of what is not.
+/// A contact whose load would end its hop below `low` radii is closed too.
 pub(crate) fn solve_island(
     bodies: &mut [Body],
     contacts: &[Closed],
     (loads, stuck): (&[f64], &[f64]),
-    tick: f64,
+    (tick, low): (f64, f64),
 ) -> Settled {
     let (resting, gaps): (Short<Resting>, Short<f64>) =
         contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
@@ -75,7 +78,7 @@ pub(crate) fn solve_island(
         converged: stopped,
     };
     for _ in 0..ROUNDS {
-        settled.hold(bodies, all, (&resting, &gaps), (loads, &slack), tick);
+        settled.hold(bodies, all, (&resting, &gaps), (loads, &slack), low);
         let closed = settled.clear_normal_velocity(bodies, &inverse_mass, (&resting, stuck), &slack);
         if !closed
             .iter()
@@ -152,20 +155,20 @@ fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Short<Row> {
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
 /// (`tick`, s) or the coordinates can tell.
-fn closed_speed(body: &Body, tick: f64) -> f64 {
+pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
     let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
-    tick * pull + SUM * body.v.length() + hop_speed(body, HOP * size)
+    tick * pull + SUM * body.v.length() + hop_speed(pull, HOP * size)
 }
 
-/// Fastest v_n (m/s) at which a body that is pressed does not leave what it rests on: the bounces that its hop would end in
-/// are summed up, so that it need not begin.
-pub(crate) fn held_speed(body: &Body, tick: f64) -> f64 {
-    closed_speed(body, tick).max(hop_speed(body, SUMMED_HOP * body.r))
+/// Height of hops, in radii, below which what is pressed does not hop at all: they would be summed up. Where nothing is lossy
+/// they go on for ever, and none is taken away.
+pub(crate) fn lowest_hop(model: &Model) -> f64 {
+    if is_lossless(&model.law) { 0.0 } else { SUMMED_HOP }
 }
 
-/// Speed (m/s) with which a body hops so high, m, against what pulls it.
-fn hop_speed(body: &Body, height: f64) -> f64 {
-    (2.0 * body.applied.length() * height).sqrt()
+/// Speed (m/s) with which something hops so high, m, against what pulls it, m/s².
+pub(crate) fn hop_speed(pull: f64, height: f64) -> f64 {
+    (2.0 * pull * height).sqrt()
 }
 
 /// The vector u of the first body less that of the second.
@@ -181,14 +184,15 @@ impl Settled {
         all: Bodies,
         (resting, gaps): (&[Resting], &[f64]),
         (loads, slack): (&[f64], &[f64]),
-        tick: f64,
+        low: f64,
     ) {
-        let opens = |contact: &Resting, slack: &dyn Fn(usize) -> f64| {
-            let slack = slack(contact.a) + contact.b.map_or(0.0, slack);
-            relative(contact, &|body| bodies[body].v).dot(contact.normal) > slack
+        let opens = |contact: &Resting, more: &dyn Fn(usize) -> f64| {
+            let limit = |body: usize| slack[body].max(more(body));
+            let v_n = relative(contact, &|body| bodies[body].v).dot(contact.normal);
+            v_n > limit(contact.a) + contact.b.map_or(0.0, limit)
         };
-        let low = |body: usize| held_speed(&bodies[body], tick);
-        let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index], &low)).collect();
+        let hop = |body: usize| hop_speed(bodies[body].applied.length(), low * bodies[body].r);
+        let closed: Short<usize> = (0..resting.len()).filter(|&index| !opens(&resting[index], &hop)).collect();
         let touching: Short<Resting> = closed.iter().map(|&index| resting[index]).collect();
         let after: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let guess: Short<f64> = closed.iter().map(|&index| loads[index]).collect();
@@ -204,8 +208,10 @@ impl Settled {
         }
         self.curved = closed.iter().any(|&index| self.forces[index] > 0.0 && self.turns(&resting[index], bodies));
         for &index in &closed {
-            let pressed = self.forces[index] > 0.0;
-            if pressed || !opens(&resting[index], &|body| slack[body]) {
+            // what opens faster than rounding is closed only if its own load ends its hop as low
+            let load = self.forces[index];
+            let hop = |body: usize| hop_speed(load * all.inverse_mass[body], low * bodies[body].r);
+            if !opens(&resting[index], &hop) {
                 self.fate[index] = self.fate_of(index, (&resting[index], gaps[index]), bodies);
             }
         }
@@ -269,8 +275,8 @@ impl Settled {
 
     /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
     /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
-    /// push one body alone, out of nothing. A wall that opens is closed too, lest the sphere be driven into it, but by no more
-    /// than rounding: of two walls that are nearly one, to stand still on both would stop the motion along them, and the
+    /// push one body alone, out of nothing. A wall that opens is closed too, lest the sphere be driven into it, but at no cost
+    /// above what is cleared: of two walls that are nearly one, to stand still on both would stop the motion along them, and the
     /// one that opens lets go instead. Returns the contacts that were open and are closed by that.
     fn clear_normal_velocity(
         &mut self,
@@ -280,7 +286,10 @@ impl Settled {
         slack: &[f64],
     ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
-        let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body];
+        let v_n = |index: usize, v: &[DVec3]| relative(&resting[index], &|body| v[body]).dot(resting[index].normal);
+        let loaded = |index: &usize| self.fate[*index] == Fate::Loaded;
+        let cleared = (0..resting.len()).filter(loaded).map(|index| v_n(index, &before)).fold(0.0, f64::max);
+        let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body].max(cleared);
         let every = Short::from_elem(0.0, resting.len());
         let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
         let opened = |index: usize| holds[index] && self.fate[index] == Fate::Opening && resting[index].b.is_none();
@@ -288,12 +297,16 @@ impl Settled {
             (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
         }
         let dear = v.iter().enumerate().any(costs);
-        let beside = (0..holds.len()).any(|index| holds[index] && self.fate[index] != Fate::Loaded);
+        let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
+        let meets = |index: usize, other: usize| {
+            has(other, resting[index].a) || resting[index].b.is_some_and(|body| has(other, body))
+        };
+        let beside =
+            |index: usize| (0..holds.len()).any(|other| holds[other] && !loaded(&other) && meets(index, other));
         let opens = |index: usize| {
-            let v_n = |v: &[DVec3]| relative(&resting[index], &|body| v[body]).dot(resting[index].normal);
             // a contact that stays open because another one would be driven in cannot hold with that
-            let stays = || beside && v_n(&v) > 0.5 * v_n(&before);
-            holds[index] && v_n(&before) > SUM * before[resting[index].a].length() && (dear || stays())
+            let stays = || v_n(index, &v) > 0.5 * v_n(index, &before) && beside(index);
+            holds[index] && v_n(index, &before) > SUM * before[resting[index].a].length() && (dear || stays())
         };
         let opening: Short<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
         if !opening.is_empty() {

@@ -30,7 +30,7 @@ impl Rests {
 
     /// Relative acceleration that the load of a resting contact gives its two bodies, m/s²: with it they fall back together
     /// after a hop.
-    pub(super) fn pressure(&self, model: &Model, key: Key) -> f64 {
+    pub(crate) fn pressure(&self, model: &Model, key: Key) -> f64 {
         let other = if key.0 == Kind::Pair { model.inverse_masses[key.2] } else { 0.0 };
         let force = self.held.get(&key).map_or(0.0, |held| held.load.force);
         force * (model.inverse_masses[key.1] + other)

@@ -462,7 +462,9 @@ impl Rests {
 
     /// Memory that they take beside their own size, bytes, as near as the contacts and spheres tell.
     pub(crate) fn bytes(&self) -> usize {
-        self.held.len() * BYTES_A_CONTACT + self.of.len() * BYTES_A_SPHERE + self.past.len() * BYTES_A_PAST
+        (self.held.len() + self.releases.entries()) * BYTES_A_CONTACT
+            + self.of.len() * BYTES_A_SPHERE
+            + self.past.len() * BYTES_A_PAST
     }
 
     /// Forgets what belongs to frames before the present one.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::equilibrium::{Settled, solve_island};
+use super::equilibrium::{Settled, closed_speed, lowest_hop, solve_island};
 use super::resting::{Curve, Island, IslandContact, Other, closed};
 use crate::physics::contact::{Class, Key, Kind};
 use crate::physics::events::changed::Changed;
@@ -258,7 +258,7 @@ impl Mechanics {
         let loads: Short<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
         let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
         let stuck = self.stuck_speeds(keys, &bodies);
-        let settled = solve_island(&mut bodies, &closed(model, &contacts), (&loads, &stuck), tick);
+        let settled = solve_island(&mut bodies, &closed(model, &contacts), (&loads, &stuck), (tick, lowest_hop(model)));
         if !settled.converged {
             return Err(self.not_held(keys));
         }
@@ -346,7 +346,7 @@ impl Mechanics {
         self.rests.kept(*key).rub.map_or(1.0, |rub| rub.share)
     }
 
-    /// How long contacts that keep being released and found again at one instant are held all the same, s: a moment in
+    /// How long contacts that keep being released and found again, at one instant or within such a time, are held, s: a moment in
     /// the time that these spheres would take to fall by their radius.
     fn pause(&self, bodies: &[Body]) -> f64 {
         let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
@@ -355,11 +355,13 @@ impl Mechanics {
     }
 
     /// Whether a contact that opens has let go too often, at this instant or, where it opens by less than coordinates tell,
-    /// within a pause: it is held for one. What would have left by then is not.
+    /// within a pause: it is held for one. What opens by more than rounding is not, if that is above 1e-12 r in a pause.
     fn is_stuck(&mut self, model: &Model, key: Key, bodies: &[Body]) -> bool {
         let (now, pause) = (self.trajectories.now, self.pause(bodies));
         let contact = self.trajectories.contact_state(model, key);
-        if contact.v_n * pause > SUMMED_HOP * contact.reach {
+        let slack =
+            || closed_speed(&Body::of(model, &self.trajectories, key.1), CLOCK_ULPS * self.trajectories.clock_ulp());
+        if contact.v_n * pause > SUMMED_HOP * contact.reach && contact.v_n > slack() {
             return false;
         }
         let creeps = contact.v_n <= self.creeping_speed(bodies);
