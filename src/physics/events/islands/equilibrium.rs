@@ -395,3 +395,43 @@ fn turning(contact: &Resting, u: DVec3) -> DVec3 {
         Surface::Round { .. } => tangential,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Parallelogram;
+    use crate::physics::events::curved::bodies::On;
+    use crate::physics::wall::{Face, Part};
+
+    const G: f64 = 9.8;
+    const R: f64 = 0.5;
+
+    /// What becomes of a sphere that leaves the floor it rests on with `v_n` (m/s), pressed on it by `pressed` (m/s²) of
+    /// what pulls it, where hops below `low` radii need not begin: its normal velocity then, m/s, and its contact.
+    fn leaves(v_n: f64, pressed: f64, low: f64) -> (f64, Fate) {
+        let floor = Face::new(Parallelogram { center: DVec3::ZERO, s1: DVec3::X * 2.0, s2: DVec3::NEG_Z * 2.0 });
+        let applied = DVec3::new((G * G - pressed * pressed).sqrt(), -pressed, 0.0);
+        let mut bodies = [Body { x: DVec3::Y * R, v: DVec3::Y * v_n, applied, inverse_mass: 0.5, r: R }];
+        let contacts = [Closed { a: 0, on: On::Wall(&floor, Part::Face) }];
+        let settled = solve_island(&mut bodies, &contacts, (&[0.0], &[f64::INFINITY]), (1e-15, low));
+        (bodies[0].v.y, settled.fate[0])
+    }
+
+    #[test]
+    fn a_hop_below_the_least_height_does_not_begin_and_a_higher_one_does() {
+        // v_n² = 2 a h, of an h of 0.9 and 1.1 times 1e-12 r: 3e-6 m/s, twenty times what coordinates do not tell
+        let speed = |share: f64| (2.0 * G * share * SUMMED_HOP * R).sqrt();
+        assert_eq!(leaves(speed(0.9), G, SUMMED_HOP), (0.0, Fate::Loaded));
+        assert_eq!(leaves(speed(1.1), G, SUMMED_HOP), (speed(1.1), Fate::Opening));
+        // where nothing is lossy only what coordinates do not tell is closed
+        assert_eq!(leaves(speed(0.9), G, 0.0), (speed(0.9), Fate::Opening));
+        assert_eq!(leaves(1e-8, G, 0.0), (0.0, Fate::Loaded));
+    }
+
+    #[test]
+    fn what_hardly_presses_ends_no_hop() {
+        // on a steep wall a hop of the same speed goes a million times as far: 5e-7 m
+        let speed = (2.0 * G * 0.9 * SUMMED_HOP * R).sqrt();
+        assert_eq!(leaves(speed, 1e-6 * G, SUMMED_HOP), (speed, Fate::Opening));
+    }
+}
