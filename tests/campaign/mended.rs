@@ -48,9 +48,12 @@ pub(crate) const MENDED_HEAPS: [(u64, u32); 12] = [
 
 /// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity;
 /// a sphere went straight from wall to wall four million times a second, impact by impact; an approach that would have
-/// stopped by itself was found again for ever; and what was held for a moment, or just opened, was driven into its wall.
-pub(crate) const MENDED_FUNNELS: [(u64, u32); 9] =
-    [(6, 12), (151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11), (3221, 20), (8817, 20), (18213, 3)];
+/// stopped by itself was found again for ever; what was held for a moment, or just opened, was driven into its wall; and a low hop was measured by what pulls a sphere
+/// instead of by what its contact carries.
+#[rustfmt::skip]
+pub(crate) const MENDED_FUNNELS: [(u64, u32); 11] = [
+    (6, 12), (151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11), (3221, 20), (8817, 20), (13270, 5), (13358, 12), (18213, 3),
+];
 
 /// Tubes: what just fits drifted into a wall, was stopped by the rounding of the edges at the tube's end, grazed its two
 /// walls in turn at one instant, was struck before its walls held it, or went to and fro by less than coordinates tell.
