@@ -39,7 +39,8 @@ pub(crate) const MENDED_STACKS: [(u64, u32); 8] =
 /// much, rounding of their velocities stopped others that slid by, loads of 1e9 N worked, and arcs went on where their
 /// equation was none any more; one in which the judge took what closes its own small gap for no rest; one whose arcs were
 /// over as they began, for loads of 1e-15 N; one in which the judge did not know what a place that is rounded is worth under
-/// 1e11 N; and four in which to close what opens by rounding drove a sphere into a wall beside it.
+/// 1e11 N; and four in which a sphere came into a wall while it rested beside it, or what rests moved: in 10994, to close what
+/// opens by rounding drove it there.
 #[rustfmt::skip]
 pub(crate) const MENDED_HEAPS: [(u64, u32); 12] = [
     (135, 2), (1393, 2), (1395, 2), (2231, 2), (2507, 2), (3579, 2), (4145, 2), (4567, 2), (9510, 2), (10994, 2), (12672, 2),
@@ -48,8 +49,8 @@ pub(crate) const MENDED_HEAPS: [(u64, u32); 12] = [
 
 /// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity;
 /// a sphere went straight from wall to wall four million times a second, impact by impact; an approach that would have
-/// stopped by itself was found again for ever; what was held for a moment, or just opened, was driven into its wall; and a low hop was measured by what pulls a sphere
-/// instead of by what its contact carries.
+/// stopped by itself was found again for ever; what was held for a moment, or just opened, was driven into its wall; and two
+/// that overlapped while a low hop was measured by what pulls a sphere instead of by what its contact carries.
 #[rustfmt::skip]
 pub(crate) const MENDED_FUNNELS: [(u64, u32); 11] = [
     (6, 12), (151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11), (3221, 20), (8817, 20), (13270, 5), (13358, 12), (18213, 3),
@@ -65,7 +66,8 @@ pub(crate) const MENDED_TUBES: [(u64, u32); 17] = [
 
 /// Joints where the judge took the edge beside the foot for the closest point; where a seam ahead was found to be met sooner
 /// than the clock can tell, and was left, again and again; and where the judge took the impact after a million hops for one
-/// with them. In 2916 an impact on the next tile lifts the sphere by less than it is held down, and comes again unless it rests.
+/// with them. In 2916 an impact on the next tile lifts the sphere by less than it is held down, and comes again unless it
+/// rests.
 pub(crate) const MENDED_JOINTS: [(u64, u32); 6] = [(1778, 2), (2916, 9), (3125, 3), (3416, 3), (8874, 4), (19727, 20)];
 
 /// Crowds in which small spheres met from afar, too late by the cancellation of their squared distance; passed through each

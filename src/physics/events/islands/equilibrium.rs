@@ -275,8 +275,8 @@ impl Settled {
 
     /// Takes what rounding left of the normal velocities of contacts that hold, and stops what then approaches another
     /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
-    /// push one body alone, out of nothing. A wall that opens is closed too, lest the sphere be driven into it, but at no cost
-    /// above what is cleared: of two walls that are nearly one, to stand still on both would stop the motion along them, and the
+    /// push one body alone, out of nothing. A wall that opens is closed too, lest the sphere be driven into it, unless that
+    /// is [`DEAR`]: of two walls that are nearly one, to stand still on both would stop the motion along them, and the
     /// one that opens lets go instead. Returns the contacts that were open and are closed by that.
     fn clear_normal_velocity(
         &mut self,

@@ -346,8 +346,8 @@ impl Mechanics {
         self.rests.kept(*key).rub.map_or(1.0, |rub| rub.share)
     }
 
-    /// How long contacts that keep being released and found again, at one instant or within such a time, are held, s: a moment in
-    /// the time that these spheres would take to fall by their radius.
+    /// How long contacts that keep being released and found again, at one instant or within such a time, are held, s: a
+    /// moment in the time that these spheres would take to fall by their radius.
     fn pause(&self, bodies: &[Body]) -> f64 {
         let of = |body: &Body| body.r / (body.applied.length() + body.v.length_squared() / body.r);
         let squared = bodies.iter().map(of).fold(f64::INFINITY, f64::min);
