@@ -185,6 +185,30 @@ fn what_just_fits_between_two_walls_slides_along_them() {
 }
 
 #[test]
+fn a_row_that_just_fits_across_two_walls_swings_through_its_line_without_sinking_in() {
+    // 6e-8 m are left of 1.5 m: within 0.1 ms of the line the accelerations leap, between one look of an arc and the next
+    let scene = case("fit-line");
+    for settings in TIMED {
+        run(&scene, settings, 1e-12);
+    }
+}
+
+#[test]
+fn a_row_that_just_fits_falls_out_from_between_two_walls_as_if_they_were_not_there() {
+    let scene = case("fit-fall");
+    for settings in TIMED {
+        let (mut run, state) = run(&scene, settings, 1e-12);
+        for ((x, v), sphere) in state.x.iter().zip(&state.v).zip(&scene.spheres) {
+            // the walls' lower edges pass by at 14 m/s: an ulp of that for 1.6 s
+            let expected = sphere.x - DVec3::Y * (0.5 * 9.8 * scene.duration * scene.duration);
+            assert!(x.distance(expected) < 1e-12, "{:?}: {x} instead of {expected}", settings.method);
+            assert!(v.distance(DVec3::NEG_Y * (9.8 * scene.duration)) < 1e-12, "{:?}: {v}", settings.method);
+        }
+        assert_eq!(impacts(&mut run), 0, "{:?}", settings.method);
+    }
+}
+
+#[test]
 fn a_few_spheres_for_ten_seconds_are_little_work() {
     for name in ["slow-wedge", "slow-corner-start", "slow-row"] {
         let scene = case(name);

@@ -50,15 +50,12 @@ const LONGEST: f64 = 0.2;
 /// of a narrow crack hold a sphere across it: rounding over the angle between their normals.
 const SHORT: f64 = 1e-3;
 
-/// Growth from which on that holds: the polynomial is off by 1e-12 radii. Below, spheres that just fit come into line.
+/// Growth from which on that holds, unless the accelerations leap: the polynomial is off by 1e-12 radii. Below, spheres that
+/// just fit come into line.
 const ROUGH: f64 = 0.32;
 
 /// Length of an arc that is not halved even there, in units of the time in which the motion changes.
 const SHORTEST: f64 = 1e-10;
-
-/// Largest change of acceleration during a brief arc, in radii per square of the time in which the motion changes: fifty
-/// times what that is where nothing is about to come into line.
-const STEEP: f64 = 0.05;
 
 /// Fractions of an arc at which its end conditions are looked at: a load that dips below 0 between two of them and comes
 /// back would have to vary faster than the arc was chosen for.
@@ -150,10 +147,11 @@ impl Arc {
             Some(span) => (start, if span > BRIEF * scale { span.min(LONGEST * scale) } else { FIRST * scale }),
         };
         for _ in 0..30 {
-            let bodies = motion.step_rkf8(start.moving(), span);
+            let (bodies, seen) = motion.seen_rkf8(start.moving(), span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let mut arc = Arc::between(start.clone(), end, span, (loaded.clone(), Order::Eight));
-            let growth = arc.growth(&motion);
+            let growth =
+                seen.iter().map(|(share, a)| growth(arc.allowance(*share, a))).fold(arc.growth(&motion), f64::min);
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= if span <= SHORT * scale { ROUGH } else { 1.0 } || span <= SHORTEST * scale {
                 arc.cut_short(&motion, &LOOKS);
@@ -182,15 +180,7 @@ impl Arc {
         let before = motion.marks(&start.bodies, &start.a);
         let holds = motion.margin(&bodies, (&a, &forces), &before) >= 0.0;
         let arc = Arc::between(start.clone(), Ends { bodies, a }, span, (loaded.to_vec(), Order::Three));
-        (holds && !arc.is_steep()).then_some(arc)
-    }
-
-    /// Whether accelerations change by more than a share of what moves the bodies by a radius in the time in which the motion
-    /// changes: a brief arc is too long then.
-    fn is_steep(&self) -> bool {
-        let scale = self.start.time_scale();
-        let changes = self.start.a.iter().zip(&self.end.a).map(|(from, to)| from.distance(*to) * scale * scale);
-        !changes.zip(&self.start.bodies).all(|(change, body)| change <= STEEP * body.r)
+        (holds && !arc.start.leap_to(&arc.end, span)).then_some(arc)
     }
 
     /// An arc so short that neither its integration nor its polynomial needs looking at while the contacts hold. Where one
@@ -202,7 +192,7 @@ impl Arc {
         let before = motion.marks(&start.bodies, &start.a);
         let holds = motion.margin(&bodies, (&a, &forces), &before) >= 0.0;
         let mut arc = Arc::between(start, Ends { bodies, a }, span, (loaded.to_vec(), Order::Four));
-        if (!holds || arc.is_steep()) && arc.growth(motion) < ROUGH {
+        if arc.start.leap_to(&arc.end, span) || !holds && arc.growth(motion) < ROUGH {
             return Err(arc.start);
         }
         if !holds {
@@ -215,22 +205,21 @@ impl Arc {
         Ok(arc)
     }
 
-    /// By how much the arc might be longer: the error falls with the sixth power.
+    /// By how much the arc might be longer, as its middle tells.
     fn growth(&self, motion: &ConstrainedMotion) -> f64 {
-        cube_root(self.allowance(motion).sqrt())
+        growth(self.allowance(0.5, &motion.accelerations(&self.at(0.5 * self.span)).0))
     }
 
-    /// How many times the error in the middle fits into what is allowed. The error of the polynomial is x⁽⁶⁾/720 s³ (h −
-    /// s)³, so that in the middle it is h²/24 times that of the acceleration, which the equation itself tells.
-    fn allowance(&self, motion: &ConstrainedMotion) -> f64 {
-        let read = self.at(0.5 * self.span);
-        let real = motion.accelerations(&read).0;
-        let share = |(i, (read, real)): (usize, (&Body, &DVec3))| {
-            let off = self.polynomial(i).chord_acceleration(0.5 * self.span, 0.0).distance(*real);
-            TOLERANCE * read.size() / (off * (self.span * self.span / 24.0))
+    /// How many times the error fits into what is allowed, by the accelerations (m/s²) that the equation tells at a share of
+    /// the arc. The error of the polynomial is x⁽⁶⁾/720 s³ (h − s)³, so that in the middle, where it is most, it is h²/24 times
+    /// that of the acceleration.
+    fn allowance(&self, share: f64, real: &[DVec3]) -> f64 {
+        let fits = |(i, (body, real)): (usize, (&Body, &DVec3))| {
+            let off = self.polynomial(i).chord_acceleration(share * self.span, 0.0).distance(*real);
+            TOLERANCE * body.size() / (off * (self.span * self.span / 24.0))
         };
-        let shares = read.iter().zip(&real).enumerate().map(share);
-        shares.fold(1e6, |least, share| if share >= least { least } else { share })
+        let fits = self.start.bodies.iter().zip(real).enumerate().map(fits);
+        fits.fold(1e6, |least, fits| if fits >= least { least } else { fits })
     }
 
     /// The bodies `time` (s) after the arc's beginning.
@@ -297,6 +286,11 @@ impl Arc {
             good = look;
         }
     }
+}
+
+/// By how much an arc might be longer whose error fits so many times into what is allowed: it grows with the sixth power.
+fn growth(allowance: f64) -> f64 {
+    cube_root(allowance.sqrt())
 }
 
 #[cfg(test)]

@@ -11,6 +11,14 @@ pub(super) const DEPARTURE: f64 = 5e-13;
 /// What coordinates tell apart, least departure of a chord from the path, relative to them: 16 ulp.
 const FINEST: f64 = 16.0 * f64::EPSILON;
 
+/// Mean jerk of an arc, in radii per cube of the time in which the motion changes, from which on spheres that just fit may
+/// come into line: ten times what that is elsewhere. A polynomial between the ends misses where in between it leaps.
+const STEEP: f64 = 10.0;
+
+/// How far the mean acceleration of an arc may be from that of its ends before that is so too, in radii per fourth power of
+/// that time and times the square of the arc: a hundred times what that is elsewhere.
+const UNEVEN: f64 = 10.0;
+
 /// The bodies at one end of an arc, and their accelerations, m/s².
 #[derive(Debug, Clone)]
 pub(super) struct Ends {
@@ -34,6 +42,19 @@ impl Ends {
             ..*body
         };
         Ends { bodies: self.bodies.iter().zip(&self.a).map(along).collect(), a: self.a.clone() }
+    }
+
+    /// Whether accelerations change until `end`, `span` (s) later, as where spheres that just fit come into line, all at once or
+    /// there and back: the ends do not tell how then, and the middle may not.
+    pub(super) fn leap_to(&self, end: &Ends, span: f64) -> bool {
+        let scale = self.time_scale();
+        let (unit, share) = (scale * scale, span / scale);
+        self.bodies.iter().zip(&end.bodies).zip(self.a.iter().zip(&end.a)).any(|((from, to), (first, last))| {
+            let change = *last - *first;
+            let off = (to.v - from.v) / span - *first - change * 0.5;
+            let steady = change.length() * unit <= STEEP * share * from.r;
+            !(steady && off.length() * unit <= UNEVEN * share * share * from.r)
+        })
     }
 
     /// Time in which the bodies move, or begin to move, by about a radius, s.

@@ -82,26 +82,39 @@ impl<'a> ConstrainedMotion<'a> {
     }
 
     /// The bodies `h` seconds later, which accelerate by `a` (m/s²) now.
-    pub(crate) fn step_rkf8(&self, (start, a): (&[Body], &[DVec3]), h: f64) -> Vec<Body> {
-        self.stepped((start, a), h, &STAGES, &ORDER_8)
+    pub(crate) fn step_rkf8(&self, start: (&[Body], &[DVec3]), h: f64) -> Vec<Body> {
+        self.result(start.0, h, &self.slopes(start, h, &STAGES), &ORDER_8)
+    }
+
+    /// The bodies `h` seconds later, which accelerate by `a` (m/s²) now, and their accelerations on the way, by share of `h`.
+    pub(crate) fn seen_rkf8(&self, start: (&[Body], &[DVec3]), h: f64) -> (Vec<Body>, [(f64, Vec<DVec3>); 5]) {
+        let slopes = self.slopes(start, h, &STAGES);
+        let seen = INSIDE.map(|(stage, share)| (share, slopes[stage].iter().map(|slope| slope.1).collect()));
+        (self.result(start.0, h, &slopes, &ORDER_8), seen)
     }
 
     /// The bodies `h` seconds later, which accelerate by `a` (m/s²) now, by the classical method of Runge and Kutta, for so
     /// small a step that its error of order h⁵ is far below rounding.
-    pub(crate) fn step_rk4(&self, (start, a): (&[Body], &[DVec3]), h: f64) -> Vec<Body> {
-        self.stepped((start, a), h, &CLASSICAL, &ORDER_4)
+    pub(crate) fn step_rk4(&self, start: (&[Body], &[DVec3]), h: f64) -> Vec<Body> {
+        self.result(start.0, h, &self.slopes(start, h, &CLASSICAL), &ORDER_4)
     }
 
-    /// The bodies `h` seconds later by the weights of all stages but the first, which is the start itself.
-    fn stepped(&self, (start, a): (&[Body], &[DVec3]), h: f64, stages: &[&[f64]], result: &[f64]) -> Vec<Body> {
-        let mut slopes: Vec<Vec<(DVec3, DVec3)>> = Vec::with_capacity(result.len());
+    /// Velocities and accelerations, m/s and m/s², by stage and body, by the weights of all stages but the first, which is the
+    /// start itself.
+    fn slopes(&self, (start, a): (&[Body], &[DVec3]), h: f64, stages: &[&[f64]]) -> Vec<Slopes> {
+        let mut slopes: Vec<Slopes> = Vec::with_capacity(stages.len() + 1);
         slopes.push(start.iter().zip(a).map(|(body, a)| (body.v, *a)).collect());
         for weights in stages {
             let at = weighted(start, h, weights, &slopes);
             let a = self.accelerations(&at).0;
             slopes.push(at.iter().zip(a).map(|(body, a)| (body.v, a)).collect());
         }
-        let mut end = weighted(start, h, result, &slopes);
+        slopes
+    }
+
+    /// The bodies `h` seconds later by the weights of all stages, back on the holding contacts.
+    fn result(&self, start: &[Body], h: f64, slopes: &[Slopes], weights: &[f64]) -> Vec<Body> {
+        let mut end = weighted(start, h, weights, slopes);
         self.restore(&mut end);
         end
     }
@@ -253,8 +266,11 @@ fn row(bodies: &[Body], contact: Closed, offset: &impl Fn(f64, f64) -> f64) -> R
     Row { a: resting.a, b: resting.b, normal: resting.normal, offset: offset(gap, curvature) }
 }
 
+/// Velocities (m/s) and accelerations (m/s²) of the bodies at one stage of a step.
+type Slopes = Vec<(DVec3, DVec3)>;
+
 /// The start moved on by h Σ wᵢ kᵢ.
-fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Vec<(DVec3, DVec3)>]) -> Vec<Body> {
+fn weighted(start: &[Body], h: f64, weights: &[f64], slopes: &[Slopes]) -> Vec<Body> {
     let moved = |(i, body): (usize, &Body)| {
         let (mut dx, mut dv) = (DVec3::ZERO, DVec3::ZERO);
         for (&weight, slopes) in weights.iter().zip(slopes).filter(|(weight, _)| **weight != 0.0) {
@@ -328,3 +344,6 @@ const ORDER_8: [f64; 13] = [
     41.0 / 840.0,
     41.0 / 840.0,
 ];
+
+/// Stages inside the step whose weight in the result is not 0, and when they are, in steps.
+const INSIDE: [(usize, f64); 5] = [(7, 1.0 / 6.0), (9, 1.0 / 3.0), (5, 0.5), (8, 2.0 / 3.0), (6, 5.0 / 6.0)];

@@ -16,7 +16,7 @@ use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
 use crate::physics::support::{Fate, Short, islands};
 use crate::physics::wall::{Part, Touch, touch, touch_part};
-use crate::physics::wall_parts::{part_ahead, part_end};
+use crate::physics::wall_parts::{part_ahead, part_end, room};
 
 /// Arcs in a row that are over at once, after which an island creeps for a moment: solving it again changes nothing.
 const HURRIED: u32 = 8;
@@ -134,8 +134,13 @@ impl Mechanics {
         for &i in &spheres {
             let path = self.trajectories.path(i, now);
             for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
-                let part = part_ahead(&model.faces[key.2], path.x, path.v, path.a, model.radii[i]);
-                self.rests.kept_mut(key).part = part;
+                let (face, r) = (&model.faces[key.2], model.radii[i]);
+                let held = self.rests.kept_mut(key);
+                // the foot of another sphere has come to its border: this one would be held by an edge that it is not at
+                let size = path.x.abs().max_element().max(r);
+                if room(face, held.part, path.x) <= HOP * size {
+                    held.part = part_ahead(face, path.x, path.v, path.a, r);
+                }
             }
         }
         self.rests.dirty.push(leader);
@@ -359,8 +364,10 @@ impl Mechanics {
     fn is_stuck(&mut self, model: &Model, key: Key, bodies: &[Body]) -> bool {
         let (now, pause) = (self.trajectories.now, self.pause(bodies));
         let contact = self.trajectories.contact_state(model, key);
-        let slack =
-            || closed_speed(&Body::of(model, &self.trajectories, key.1), CLOCK_ULPS * self.trajectories.clock_ulp());
+        let of = |&i: &usize| {
+            closed_speed(&Body::of(model, &self.trajectories, i), CLOCK_ULPS * self.trajectories.clock_ulp())
+        };
+        let slack = || Changed::of(key).spheres().iter().map(of).sum::<f64>();
         if contact.v_n * pause > SUMMED_HOP * contact.reach && contact.v_n > slack() {
             return false;
         }
