@@ -49,11 +49,13 @@ pub(crate) const MENDED_HEAPS: [(u64, u32); 12] = [
 
 /// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity;
 /// a sphere went straight from wall to wall four million times a second, impact by impact; an approach that would have
-/// stopped by itself was found again for ever; what was held for a moment, or just opened, was driven into its wall; and two
-/// that overlapped while a low hop was measured by what pulls a sphere instead of by what its contact carries.
+/// stopped by itself was found again for ever; what was held for a moment, or just opened, was driven into its wall; two
+/// that overlapped while a low hop was measured by what pulls a sphere instead of by what its contact carries; and three in
+/// which what held kept the speed of a hop that it did not begin, since another contact, which opened by 1e-38 m/s, let go.
 #[rustfmt::skip]
-pub(crate) const MENDED_FUNNELS: [(u64, u32); 11] = [
-    (6, 12), (151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11), (3221, 20), (8817, 20), (13270, 5), (13358, 12), (18213, 3),
+pub(crate) const MENDED_FUNNELS: [(u64, u32); 14] = [
+    (6, 12), (151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11), (3221, 20), (4738, 7), (8817, 20), (13270, 5), (13358, 12),
+    (13882, 13), (17919, 20), (18213, 3),
 ];
 
 /// Tubes: what just fits drifted into a wall, was stopped by the rounding of the edges at the tube's end, grazed its two

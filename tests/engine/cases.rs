@@ -186,7 +186,8 @@ fn what_just_fits_between_two_walls_slides_along_them() {
 
 #[test]
 fn a_row_that_just_fits_across_two_walls_swings_through_its_line_without_sinking_in() {
-    // 6e-8 m are left of 1.5 m: within 0.1 ms of the line the accelerations leap, between one look of an arc and the next
+    // the walls are 6e-8 m closer than the row is long: within 0.1 ms of the line the accelerations leap, between one look of
+    // an arc and the next
     let scene = case("fit-line");
     for settings in TIMED {
         run(&scene, settings, 1e-12);
@@ -205,6 +206,24 @@ fn a_row_that_just_fits_falls_out_from_between_two_walls_as_if_they_were_not_the
             assert!(v.distance(DVec3::NEG_Y * (9.8 * scene.duration)) < 1e-12, "{:?}: {v}", settings.method);
         }
         assert_eq!(impacts(&mut run), 0, "{:?}", settings.method);
+    }
+}
+
+#[test]
+fn a_sphere_slides_over_a_seam_however_late_the_clock() {
+    // 1 m/s over a seam of 0.2 m between two elastic walls: after 2000 s an ulp of the clock is 16 of the coordinates
+    let scene = case("late-seams");
+    for settings in TIMED {
+        let mut run = Simulation::new(&scene, settings);
+        assert_eq!(support::run_to(&mut run, scene.duration, 100_000), None, "{:?}", settings.method);
+        let state = run.at(scene.duration);
+        // 0.18 m from wall to wall; each of the 11 111 bounces is off by an ulp of the clock at most
+        let way = 0.09 + scene.spheres[0].x.x + scene.duration;
+        let (bounces, rest) = ((way / 0.18).floor(), way % 0.18);
+        let x = if bounces % 2.0 == 0.0 { rest - 0.09 } else { 0.09 - rest };
+        assert!((state.x[0].x - x).abs() < 1e-8, "{:?}: {} instead of {x}", settings.method, state.x[0].x);
+        assert_eq!(state.x[0].y, 0.01, "{:?}", settings.method);
+        assert_eq!(run.tallies().impacts, bounces as u64, "{:?}", settings.method);
     }
 }
 

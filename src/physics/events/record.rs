@@ -7,7 +7,7 @@ use crate::physics::contact::Kind;
 use crate::physics::path::Path;
 
 /// State of a sphere at its own time, the beginning of its current parabola. 64 bytes, one cache line: twice four numbers,
-/// as [`simd`](super::schedule::simd) reads them.
+/// as `schedule/simd.rs` reads them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub(crate) struct Trajectory {

@@ -50,8 +50,7 @@ const LONGEST: f64 = 0.2;
 /// of a narrow crack hold a sphere across it: rounding over the angle between their normals.
 const SHORT: f64 = 1e-3;
 
-/// Growth from which on that holds, unless the accelerations leap: the polynomial is off by 1e-12 radii. Below, spheres that
-/// just fit come into line.
+/// Growth from which on that holds: the polynomial is off by 1e-12 radii. Below, spheres that just fit come into line.
 const ROUGH: f64 = 0.32;
 
 /// Length of an arc that is not halved even there, in units of the time in which the motion changes.
@@ -150,8 +149,7 @@ impl Arc {
             let (bodies, seen) = motion.seen_rkf8(start.moving(), span);
             let end = Ends { a: motion.accelerations(&bodies).0, bodies };
             let mut arc = Arc::between(start.clone(), end, span, (loaded.clone(), Order::Eight));
-            let growth =
-                seen.iter().map(|(share, a)| growth(arc.allowance(*share, a))).fold(arc.growth(&motion), f64::min);
+            let growth = arc.growth(&motion).min(arc.growth_beside(&motion, &seen));
             arc.next = span * (0.8 * growth).min(2.0);
             if growth >= if span <= SHORT * scale { ROUGH } else { 1.0 } || span <= SHORTEST * scale {
                 arc.cut_short(&motion, &LOOKS);
@@ -168,7 +166,7 @@ impl Arc {
         Arc { start, end, span, length: span, changes: false, next: span, loaded, order }
     }
 
-    /// The briefest of arcs; none if a contact changes on the way.
+    /// The briefest of arcs; none if a contact changes, or the accelerations leap, on the way.
     fn briefest(start: &Ends, motion: &ConstrainedMotion, span: f64, loaded: &[bool]) -> Option<Arc> {
         let ahead = start.moved(span).bodies;
         let (a, forces) = motion.accelerations(&ahead);
@@ -185,7 +183,7 @@ impl Arc {
 
     /// An arc so short that neither its integration nor its polynomial needs looking at while the contacts hold. Where one
     /// changes on the way but not soon, the arc ends before: most of these arcs are interrupted long before, and when that
-    /// is need not be found. Gives its start back where on the way the equation is none.
+    /// is need not be found. Gives its start back where accelerations leap or the equation is none on the way.
     fn brief(start: Ends, motion: &ConstrainedMotion, span: f64, loaded: &[bool]) -> Result<Arc, Ends> {
         let bodies = motion.step_rk4(start.moving(), span);
         let (a, forces) = motion.accelerations(&bodies);
@@ -207,19 +205,37 @@ impl Arc {
 
     /// By how much the arc might be longer, as its middle tells.
     fn growth(&self, motion: &ConstrainedMotion) -> f64 {
-        growth(self.allowance(0.5, &motion.accelerations(&self.at(0.5 * self.span)).0))
+        self.growth_at(0.5, &motion.accelerations(&self.at(0.5 * self.span)).0, |_| 0.0)
     }
 
-    /// How many times the error fits into what is allowed, by the accelerations (m/s²) that the equation tells at a share of
-    /// the arc. The error of the polynomial is x⁽⁶⁾/720 s³ (h − s)³, so that in the middle, where it is most, it is h²/24 times
-    /// that of the acceleration.
-    fn allowance(&self, share: f64, real: &[DVec3]) -> f64 {
+    /// By how much the arc might be longer, as the accelerations (m/s²) tell that were `seen` on the way, by share of it. What
+    /// is healed of gaps at its end, or rounded there, bends the polynomial by 6/h² of it at most, but not in the middle.
+    fn growth_beside(&self, motion: &ConstrainedMotion, seen: &[(f64, Vec<DVec3>)]) -> f64 {
+        let bent = |body: &Body| 6.0 * (motion.healed + body.finest());
+        seen.iter().map(|(share, a)| self.growth_at(*share, a, bent)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// By how much the arc might be longer, by the accelerations (m/s²) that the equation tells at a share of it, of which `bent`
+    /// over h² (m) is none of the arc's. The error of the polynomial is x⁽⁶⁾/720 s³ (h − s)³, so that in the middle, where it is
+    /// most, it is h²/24 times that of the acceleration; it grows with the sixth power of h.
+    fn growth_at(&self, share: f64, real: &[DVec3], bent: impl Fn(&Body) -> f64) -> f64 {
         let fits = |(i, (body, real)): (usize, (&Body, &DVec3))| {
             let off = self.polynomial(i).chord_acceleration(share * self.span, 0.0).distance(*real);
-            TOLERANCE * body.size() / (off * (self.span * self.span / 24.0))
+            let left = off * (self.span * self.span) - bent(body);
+            if left <= 0.0 { f64::INFINITY } else { TOLERANCE * body.size() / (left / 24.0) }
         };
-        let fits = self.start.bodies.iter().zip(real).enumerate().map(fits);
-        fits.fold(1e6, |least, fits| if fits >= least { least } else { fits })
+        let all = self.start.bodies.iter().zip(real).enumerate().map(fits);
+        // no number fits not at all
+        let worse = |least: f64, fits: f64| {
+            if fits >= least {
+                least
+            } else if fits < least {
+                fits
+            } else {
+                0.0
+            }
+        };
+        cube_root(all.fold(1e6, worse).sqrt())
     }
 
     /// The bodies `time` (s) after the arc's beginning.
@@ -286,11 +302,6 @@ impl Arc {
             good = look;
         }
     }
-}
-
-/// By how much an arc might be longer whose error fits so many times into what is allowed: it grows with the sixth power.
-fn growth(allowance: f64) -> f64 {
-    cube_root(allowance.sqrt())
 }
 
 #[cfg(test)]

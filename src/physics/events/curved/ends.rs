@@ -12,11 +12,11 @@ pub(super) const DEPARTURE: f64 = 5e-13;
 const FINEST: f64 = 16.0 * f64::EPSILON;
 
 /// Mean jerk of an arc, in radii per cube of the time in which the motion changes, from which on spheres that just fit may
-/// come into line: ten times what that is elsewhere. A polynomial between the ends misses where in between it leaps.
+/// come into line: ten times what a smooth motion has. A polynomial between the ends misses where in between it leaps.
 const STEEP: f64 = 10.0;
 
-/// How far the mean acceleration of an arc may be from that of its ends before that is so too, in radii per fourth power of
-/// that time and times the square of the arc: a hundred times what that is elsewhere.
+/// How far the mean acceleration of an arc may be from that of its ends before they come into line too, in radii per fourth
+/// power of the time in which the motion changes, times the square of the arc: a hundred times what a smooth motion has.
 const UNEVEN: f64 = 10.0;
 
 /// The bodies at one end of an arc, and their accelerations, m/s².
@@ -45,7 +45,8 @@ impl Ends {
     }
 
     /// Whether accelerations change until `end`, `span` (s) later, as where spheres that just fit come into line, all at once or
-    /// there and back: the ends do not tell how then, and the middle may not.
+    /// there and back: the ends do not tell how then, and the middle may not. What leaps there and back shows only where v was
+    /// integrated by more than the accelerations of the ends.
     pub(super) fn leap_to(&self, end: &Ends, span: f64) -> bool {
         let scale = self.time_scale();
         let (unit, share) = (scale * scale, span / scale);

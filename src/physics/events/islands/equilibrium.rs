@@ -41,12 +41,14 @@ pub(crate) struct Settled {
     pub(crate) curved: bool,
     /// Whether both problems were solved to rounding.
     pub(crate) converged: bool,
+    /// Whether the contacts that hold have no normal velocity left but rounding; not where one lets go lest that be dear.
+    pub(crate) cleared: bool,
 }
 
 /// Stops what still approaches, and finds what holds and how the island moves. Changes the velocities.
 ///
-/// `tick` is the clock's rounding, s: a contact that opens so slowly that, pressed, it would be closed again before the
-/// clock or the coordinates can tell is closed.
+/// `clock` is what the clock does not tell, s: a contact that opens so slowly that, pressed, it would be closed again before
+/// the clock or the coordinates can tell is closed.
 /// `loads` (N, by contact) are what they carried last; what is `stuck` will be held even if it opens:
 /// by contact, the approach (m/s) from which on it must be closed; infinite of what is not.
 /// A contact whose load would end its hop below `low` radii is closed too.
@@ -54,14 +56,14 @@ pub(crate) fn solve_island(
     bodies: &mut [Body],
     contacts: &[Closed],
     (loads, stuck): (&[f64], &[f64]),
-    (tick, low): (f64, f64),
+    (clock, low): (f64, f64),
 ) -> Settled {
     let (resting, gaps): (Short<Resting>, Short<f64>) =
         contacts.iter().map(|&contact| geometry(bodies, contact)).unzip();
     let inverse_mass: Short<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let (applied, velocity): (Short<DVec3>, Short<DVec3>) = bodies.iter().map(|body| (body.applied, body.v)).unzip();
     let all = Bodies { inverse_mass: &inverse_mass, velocity: &velocity, applied: &applied };
-    let slack: Short<f64> = bodies.iter().map(|body| closed_speed(body, tick)).collect();
+    let slack: Short<f64> = bodies.iter().map(|body| closed_speed(body, clock)).collect();
     let (impulses, stopped) = stop_approaches(bodies, all, (&resting, loads), &slack);
     let strikes = |(contact, impulse): (&Resting, &f64)| {
         let change = |body: usize| impulse * inverse_mass[body] > slack[body];
@@ -76,6 +78,7 @@ pub(crate) fn solve_island(
         fate: Short::from_elem(Fate::Opening, contacts.len()),
         curved: false,
         converged: stopped,
+        cleared: true,
     };
     for _ in 0..ROUNDS {
         settled.hold(bodies, all, (&resting, &gaps), (loads, &slack), low);
@@ -87,7 +90,7 @@ pub(crate) fn solve_island(
             break;
         }
     }
-    settled.stop(bodies, tick);
+    settled.stop(bodies, clock);
     settled.let_go(bodies, &resting);
     settled
 }
@@ -154,10 +157,10 @@ fn rows<'a>(resting: impl Iterator<Item = &'a Resting>) -> Short<Row> {
 }
 
 /// Fastest v_n (m/s) at which a body is as good as closed on what it rests on: pressed, it would be back before the clock
-/// (`tick`, s) or the coordinates can tell.
-pub(crate) fn closed_speed(body: &Body, tick: f64) -> f64 {
+/// (`clock`, s) or the coordinates can tell.
+pub(crate) fn closed_speed(body: &Body, clock: f64) -> f64 {
     let (pull, size) = (body.applied.length(), body.x.abs().max_element() + body.r);
-    tick * pull + SUM * body.v.length() + hop_speed(pull, HOP * size)
+    clock * pull + SUM * body.v.length() + hop_speed(pull, HOP * size)
 }
 
 /// Height of hops, in radii, below which what is pressed does not hop at all: they would be summed up. Where nothing is lossy
@@ -264,9 +267,9 @@ impl Settled {
 
     /// Takes what rounding left of the velocities of an island that has come to rest: less than what presses it would give
     /// any of its bodies before the clock can tell. Nothing turns then.
-    fn stop(&mut self, bodies: &mut [Body], tick: f64) {
+    fn stop(&mut self, bodies: &mut [Body], clock: f64) {
         let pull = pull(bodies);
-        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= tick * pull;
+        let rests = |(body, a): (&Body, &DVec3)| *a == DVec3::ZERO && body.v.length() <= clock * pull;
         if bodies.iter().zip(&self.a).all(rests) {
             bodies.iter_mut().for_each(|body| body.v = DVec3::ZERO);
             self.curved = false;
@@ -309,7 +312,8 @@ impl Settled {
             holds[index] && v_n(index, &before) > SUM * before[resting[index].a].length() && (dear || stays())
         };
         let opening: Short<usize> = (0..holds.len()).filter(|&index| opens(index)).collect();
-        if !opening.is_empty() {
+        self.cleared = opening.is_empty();
+        if !self.cleared {
             opening.into_iter().for_each(|index| self.fate[index] = Fate::Opening);
             return Short::new();
         }

@@ -136,9 +136,9 @@ impl Mechanics {
             for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
                 let (face, r) = (&model.faces[key.2], model.radii[i]);
                 let held = self.rests.kept_mut(key);
-                // the foot of another sphere has come to its border: this one would be held by an edge that it is not at
-                let size = path.x.abs().max_element().max(r);
-                if room(face, held.part, path.x) <= HOP * size {
+                // What has not come to its border keeps its part: ahead of it is an edge that it is not at.
+                let told = HOP * path.x.abs().max_element().max(r) + path.v.length() * self.trajectories.clock_ulp();
+                if room(face, held.part, path.x) <= told {
                     held.part = part_ahead(face, path.x, path.v, path.a, r);
                 }
             }
@@ -261,9 +261,10 @@ impl Mechanics {
         self.rub_off(model, keys);
         let Members { spheres, mut bodies, contacts } = self.members(model, keys);
         let loads: Short<f64> = keys.iter().map(|&key| self.rests.kept(key).load.force).collect();
-        let tick = CLOCK_ULPS * self.trajectories.clock_ulp();
+        let clock = CLOCK_ULPS * self.trajectories.clock_ulp();
         let stuck = self.stuck_speeds(keys, &bodies);
-        let settled = solve_island(&mut bodies, &closed(model, &contacts), (&loads, &stuck), (tick, lowest_hop(model)));
+        let settled =
+            solve_island(&mut bodies, &closed(model, &contacts), (&loads, &stuck), (clock, lowest_hop(model)));
         if !settled.converged {
             return Err(self.not_held(keys));
         }
@@ -294,7 +295,7 @@ impl Mechanics {
             self.trajectories.trajectory(*i).v.distance(body.v) > rounding * body.v.length()
         };
         let carried = gone.iter().any(|&index| settled.forces[index] > 0.0);
-        let moves = carried || spheres.iter().zip(&bodies).any(moved);
+        let moves = carried || !settled.cleared || spheres.iter().zip(&bodies).any(moved);
         if moves || left.len() < 2 || self.groups(&left).len() > 1 {
             return Ok(Some(left));
         }
