@@ -226,15 +226,7 @@ impl Arc {
         };
         let all = self.start.bodies.iter().zip(real).enumerate().map(fits);
         // no number fits not at all
-        let worse = |least: f64, fits: f64| {
-            if fits >= least {
-                least
-            } else if fits < least {
-                fits
-            } else {
-                0.0
-            }
-        };
+        let worse = |least: f64, fits: f64| if fits.is_nan() { 0.0 } else { least.min(fits) };
         cube_root(all.fold(1e6, worse).sqrt())
     }
 
