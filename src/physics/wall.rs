@@ -106,20 +106,23 @@ pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
     if face.shades(x) { touch_face(face, x, r) } else { touch_outline(face, x, r) }
 }
 
-/// The closest point of a wall's edges and corners.
+/// The closest point of a wall's edges and corners. A corner counts only where the feet on both its edges are outside them:
+/// within 1e-8 of it, relative to the distance, rounding would not tell it from a foot beside it.
 fn touch_outline(face: &Face, x: DVec3, r: f64) -> Touch {
     let corners = face.shape.corners();
+    let shares = [0, 1, 2, 3].map(|k: usize| share_along(x, corners[k], corners[(k + 1) % 4]));
     let (mut closest, mut least) = ((Part::Corner(0), corners[0]), f64::INFINITY);
-    for k in 0..4 {
-        let (from, to) = (corners[k], corners[(k + 1) % 4]);
-        let (part, point) = match share_along(x, from, to) {
-            s if s <= 0.0 => (Part::Corner(k as u8), from),
-            s if s >= 1.0 => (Part::Corner((k as u8 + 1) % 4), to),
-            s => (Part::Edge(k as u8), from + (to - from) * s),
+    for (k, (&corner, &share)) in corners.iter().zip(&shares).enumerate() {
+        let candidate = if share > 0.0 && share < 1.0 {
+            (Part::Edge(k as u8), corner + (corners[(k + 1) % 4] - corner) * share)
+        } else if share <= 0.0 && shares[(k + 3) % 4] >= 1.0 {
+            (Part::Corner(k as u8), corner)
+        } else {
+            continue;
         };
-        let squared = (x - point).length_squared();
+        let squared = (x - candidate.1).length_squared();
         if squared < least {
-            (closest, least) = ((part, point), squared);
+            (closest, least) = (candidate, squared);
         }
     }
     touch_point(closest, x, r)

@@ -163,6 +163,19 @@ mod tests {
     }
 
     #[test]
+    fn beside_a_corner_the_edge_is_closest_however_near_the_corner() {
+        // their distances differ by 1e-17 m of 0.5 m, which rounding does not tell; their normals by 7e-9 rad
+        let square = Parallelogram { center: DVec3::new(-0.5, 0.0, 0.0), s1: DVec3::X, s2: DVec3::Z * 8.0 };
+        for beside in [-3.6e-9, -1e-12, -1e-15] {
+            let at = touch(&Face::new(square), DVec3::new(beside, 0.45, 4.2), 0.5);
+            assert!(matches!(at.part, Part::Edge(_)), "{beside}: {at:?}");
+            assert_eq!(at.normal.x, 0.0, "{beside}: {at:?}");
+        }
+        let beyond = touch(&Face::new(square), DVec3::new(1e-15, 0.45, 4.2), 0.5);
+        assert!(matches!(beyond.part, Part::Corner(_)), "{beyond:?}");
+    }
+
+    #[test]
     fn a_wall_is_said_to_be_farther_only_where_it_is() {
         let face = skewed();
         let mut said = 0;
