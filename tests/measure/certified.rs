@@ -388,7 +388,8 @@ fn what_ends_a_curved_motion_does_not_hide_how_far_it_is_off() {
         assert!(certificate.until >= until.min(0.34), "{certificate:?}");
         certificate.error
     });
-    assert!(0.0 < errors[0] && errors[0] <= errors[1] && errors[1] <= errors[2] && errors[2] < 1e-12, "{errors:?}");
+    // rounding of arcs need not grow: it is told, which is more than nothing, wherever the run ends
+    assert!(errors.iter().all(|error| (1e-17..1e-12).contains(error)), "{errors:?}");
 }
 
 #[test]
