@@ -50,8 +50,9 @@ pub(crate) const MENDED_HEAPS: [(u64, u32); 12] = [
 /// Funnels: what let go at an instant went on as if still held, and summed-up bounces struck meanwhile with their mean velocity;
 /// a sphere went straight from wall to wall four million times a second, impact by impact; an approach that would have
 /// stopped by itself was found again for ever; what was held for a moment, or just opened, was driven into its wall; two
-/// that overlapped while a low hop was measured by what pulls a sphere instead of by what its contact carries; and three in
-/// which what held kept the speed of a hop that it did not begin, since another contact, which opened by 1e-38 m/s, let go.
+/// that overlapped while a low hop was measured by what pulls a sphere instead of by what its contact carries; and three that
+/// pass since an island is solved again that let something go uncleared: in 4738, where a contact opened by 1e-38 m/s, what
+/// held kept the speed of a hop that it did not begin.
 #[rustfmt::skip]
 pub(crate) const MENDED_FUNNELS: [(u64, u32); 14] = [
     (6, 12), (151, 5), (377, 2), (459, 11), (1825, 5), (2558, 11), (3221, 20), (4738, 7), (8817, 20), (13270, 5), (13358, 12),

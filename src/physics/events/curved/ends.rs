@@ -12,11 +12,11 @@ pub(super) const DEPARTURE: f64 = 5e-13;
 const FINEST: f64 = 16.0 * f64::EPSILON;
 
 /// Mean jerk of an arc, in radii per cube of the time in which the motion changes, from which on spheres that just fit may
-/// come into line: ten times what a smooth motion has. A polynomial between the ends misses where in between it leaps.
+/// come into line; of order 1 where a motion is smooth. A polynomial between the ends misses where in between it leaps.
 const STEEP: f64 = 10.0;
 
 /// How far the mean acceleration of an arc may be from that of its ends before they come into line too, in radii per fourth
-/// power of the time in which the motion changes, times the square of the arc: a hundred times what a smooth motion has.
+/// power of the time in which the motion changes, times the square of the arc; of order 0.1 (h²/12 of a″) where it is smooth.
 const UNEVEN: f64 = 10.0;
 
 /// The bodies at one end of an arc, and their accelerations, m/s².
