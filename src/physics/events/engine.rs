@@ -261,6 +261,7 @@ impl<D: Detector> EventDriven<D> {
         log.approaches.clear();
     }
 
+    #[inline(always)]
     fn close_frame(&mut self, model: &Model, log: &mut Log, end: f64) -> Turn {
         let looked_at = std::mem::take(&mut self.schedule.evaluations);
         self.schedule.detector.report(self.frame.time, end, looked_at, log);

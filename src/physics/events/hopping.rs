@@ -188,7 +188,11 @@ impl Hopping {
     }
 
     /// Number of impacts up to time `t` (s) of the hops under way.
+    #[inline(always)]
     pub(super) fn impacts(&self, t: f64) -> u64 {
+        if self.now.is_empty() {
+            return 0;
+        }
         self.now.values().map(|repeated| repeated.impacts(t)).sum()
     }
 
@@ -209,6 +213,7 @@ impl Hopping {
     }
 
     /// Forgets what is over.
+    #[inline(always)]
     pub(super) fn forget_past(&mut self) {
         self.past.clear();
     }

@@ -11,6 +11,9 @@ const MOST_IMPACTS: usize = 12;
 /// Impacts before one among which its contact is looked for.
 const LOOKED_BACK: usize = 32;
 
+/// Classes of contacts that are counted among those, so that one of a class that is not there is not looked for.
+const CLASSES: usize = 512;
+
 /// Impacts in a row, each of a contact that was among the last few, from which on bodies are sent to and fro at one place.
 const TO_AND_FRO: u32 = 8;
 
@@ -21,6 +24,8 @@ pub(super) struct LastImpacts {
     words: [u64; COMPARED],
     /// The last few once more, in half a word each, so that they are compared all at once.
     recent: [u32; LOOKED_BACK],
+    /// How many of the last few are of each class.
+    classes: [u8; CLASSES],
     /// Number of impacts so far.
     total: usize,
     /// Number of impacts before those that are compared next.
@@ -33,9 +38,12 @@ pub(super) struct LastImpacts {
 
 impl Default for LastImpacts {
     fn default() -> LastImpacts {
+        let mut classes = [0; CLASSES];
+        classes[class(u32::MAX)] = LOOKED_BACK as u8;
         LastImpacts {
             words: [u64::MAX; COMPARED],
             recent: [u32::MAX; LOOKED_BACK],
+            classes,
             total: 0,
             before: 0,
             began: 0.0,
@@ -53,14 +61,23 @@ impl LastImpacts {
         }
         let word = word(key);
         let short = short(word);
-        let last = self.recent[self.total.wrapping_sub(1) % LOOKED_BACK];
-        // without a branch for each; the same contact twice in a row is no way to and fro
-        let found = self.recent.iter().fold(0, |found, &other| found + u32::from(other == short));
-        let again = found > u32::from(last == short);
+        let place = self.total % LOOKED_BACK;
+        let again = self.classes[class(short)] > 0 && self.is_among_recent(short);
         self.again = if again { self.again.saturating_add(1) } else { 0 };
         self.words[self.total % COMPARED] = word;
-        self.recent[self.total % LOOKED_BACK] = short;
+        self.classes[class(self.recent[place])] -= 1;
+        self.classes[class(short)] += 1;
+        self.recent[place] = short;
         self.total = self.total.wrapping_add(1);
+    }
+
+    /// Whether a contact is among the last few; of the same contact twice in a row, which is no way to and fro, the second
+    /// does not count.
+    fn is_among_recent(&self, short: u32) -> bool {
+        let last = self.recent[self.total.wrapping_sub(1) % LOOKED_BACK];
+        // without a branch for each
+        let found = self.recent.iter().fold(0, |found, &other| found + u32::from(other == short));
+        found > u32::from(last == short)
     }
 
     /// Whether there are enough to be compared.
@@ -99,6 +116,12 @@ fn short(word: u64) -> u32 {
     (word >> 32).wrapping_mul(0x9e37_79b1) as u32 ^ word as u32
 }
 
+/// The class of a contact, by half a word.
+#[inline(always)]
+fn class(short: u32) -> usize {
+    short as usize % CLASSES
+}
+
 /// The contact of a word.
 fn key(word: u64) -> Key {
     let kind = if word >> 63 == 1 { Kind::Pair } else { Kind::Wall };
@@ -108,6 +131,7 @@ fn key(word: u64) -> Key {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix64;
 
     #[test]
     fn a_word_gives_its_contact_back() {
@@ -115,6 +139,23 @@ mod tests {
             [(Kind::Wall, 0, 0), (Kind::Pair, 3, 5), (Kind::Pair, 0x7fff_ffff, 0xffff_ffff), (Kind::Wall, 7, 1)]
         {
             assert_eq!(key(word(contact)), contact);
+        }
+    }
+
+    #[test]
+    fn a_contact_counts_again_if_it_was_among_the_last_few_but_not_as_the_last_of_all() {
+        let (mut last, mut met, mut row) = (LastImpacts::default(), Vec::new(), 0);
+        let mut draw = SplitMix64::new(1);
+        for k in 0..5000 {
+            // few contacts for some time, then many
+            let among = if k / 100 % 2 == 0 { 6 } else { 4000 };
+            let contact = (Kind::Pair, draw.below(among), 7000);
+            let before: &[Key] = &met[met.len().saturating_sub(LOOKED_BACK)..];
+            let again = before.iter().rev().skip(1).any(|&key| key == contact);
+            row = if again { row + 1 } else { 0 };
+            last.note(contact, 0.0);
+            met.push(contact);
+            assert_eq!(last.go_to_and_fro(), row >= TO_AND_FRO, "impact {k}");
         }
     }
 

@@ -52,6 +52,7 @@ impl Mechanics {
     }
 
     /// Forgets the states of earlier frames, which can no longer be read then: a frame begins.
+    #[inline(always)]
     pub(crate) fn forget_past(&mut self) {
         self.trajectories.forget_past();
         self.rests.forget();

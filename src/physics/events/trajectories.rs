@@ -262,6 +262,7 @@ impl Trajectories {
     }
 
     /// Forgets the trajectories of earlier frames, whose states can no longer be read then: a frame begins.
+    #[inline(always)]
     pub(crate) fn forget_past(&mut self) {
         self.past.clear();
         self.hopping.forget_past();

@@ -37,10 +37,14 @@ impl Rests {
     }
 
     /// Energy (J) at `time` (s) of bounces that are summed up: the state shows their mean velocity.
+    #[inline(always)]
     pub(crate) fn hidden_energy(&self, model: &Model, trajectories: &Trajectories, time: f64) -> f64 {
-        if model.law.tangential == 1.0 {
-            return 0.0; // only bounces that rub are summed up so that the state hides some
-        }
+        // only bounces that rub are summed up so that the state hides some
+        if model.law.tangential == 1.0 { 0.0 } else { self.energy_of_sums(model, trajectories, time) }
+    }
+
+    /// Energy (J) at `time` (s) of bounces on walls that rub, as far as they are summed up.
+    fn energy_of_sums(&self, model: &Model, trajectories: &Trajectories, time: f64) -> f64 {
         let of = |(&key, held): (&Key, &RestingContact)| {
             let rub = held.rub.filter(|_| held.settles_at > time)?;
             let (v, normal) =

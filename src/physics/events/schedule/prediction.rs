@@ -87,6 +87,7 @@ impl<D: Detector> Schedule<D> {
     }
 
     /// Enters the earliest of a sphere's plan and its island's end into the queue.
+    #[inline(always)]
     pub(crate) fn enter(&mut self, trajectories: &Trajectories, rests: &Rests, slot: usize) {
         let due = event_time(trajectories, rests, slot);
         self.queue.set(slot, due);

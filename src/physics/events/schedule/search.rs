@@ -161,7 +161,9 @@ impl<D: Detector> Search<'_, D> {
             let (slots, later) = rest.split_at(rest.len().min(MOST));
             rest = later;
             let first = self.simd.look(query, records, slots, batches);
-            let far = || is_far(first.c, query.r + records[first.with as usize].trajectory.r);
+            // first without the radius of the other, which takes longer to read than all the rest
+            let far =
+                || is_far(first.c, query.r) && is_far(first.c, query.r + records[first.with as usize].trajectory.r);
             if first.doubtful || !self.rests.is_empty() || first.time < f64::INFINITY && far() {
                 self.one_by_one(slots, batches, first.meet, plan);
             } else if first.time < f64::INFINITY {
