@@ -1,7 +1,8 @@
-//! What rooms are asked at every half second, curved rest or not: no overlap beyond 1e-12 r, and no rise of the energy.
+//! What rooms are asked at every half second, curved rest or not: no overlap beyond 1e-12 r, of `swept` beyond its
+//! tolerance, and no rise of the energy.
 
 use carom::physics::wall::touch;
-use carom::physics::{Model, Simulation, State};
+use carom::physics::{Method, Model, Settings, Simulation, State};
 
 use crate::judged::{Failure, fail};
 
@@ -25,7 +26,8 @@ impl Halves {
             self.count += 1;
             let (model, state) = (run.model(), run.at(0.5 * f64::from(self.count)));
             let deep = depth(model, &state);
-            if deep > 1e-12 {
+            let Settings { method, tolerance, .. } = run.settings();
+            if deep > 1e-12 + if method == Method::Swept { tolerance } else { 0.0 } {
                 return fail("depth", format!("degree {deep:e} at {} s", state.t));
             }
             let energy = state.energy(model);

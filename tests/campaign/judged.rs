@@ -13,10 +13,15 @@ use crate::halves::Halves;
 /// Frames are half seconds, or shorter where something happens.
 pub(crate) const EXACT: Settings = Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 };
 
+/// As [`EXACT`], within a tolerance of a thousandth of a radius.
+pub(crate) const SWEPT: Settings = Settings { method: Method::Swept, ..EXACT };
+
 /// A generator of scenes and what is asked of them.
 #[derive(Clone, Copy)]
 pub(crate) struct Generator {
     pub(crate) scene: fn(u64) -> Scene,
+    /// How they are run.
+    pub(crate) settings: Settings,
     /// Half seconds of each run.
     pub(crate) halves: u32,
     /// Turns of the method's loop after which a scene counts as hanging.
@@ -71,7 +76,7 @@ const TIMED: u64 = 16;
 /// Runs one scene of a generator for so many half seconds; also says what it met.
 pub(crate) fn check(generator: &Generator, seed: u64, halves: u32, met: &mut Met) -> Result<(), Failure> {
     let scene = (generator.scene)(seed);
-    let mut run = Simulation::new(&scene, EXACT);
+    let mut run = Simulation::new(&scene, generator.settings);
     run.record_events(true);
     let mut judge = Judge::of(&run);
     let verdict = go_on(generator, &mut run, &mut judge, halves, met);

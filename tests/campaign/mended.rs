@@ -90,3 +90,8 @@ pub(crate) const MENDED_CROWDS: [(u64, u32); 22] = [
 /// of rounding; the last are of the check: independent events change places.
 pub(crate) const MENDED_UNITS: [(u64, u32); 7] =
     [(2028, 20), (4178, 20), (12331, 20), (17084, 20), (17089, 20), (18638, 20), (19811, 20)];
+
+/// What gained energy by `swept`, which lifted bodies at rest out of overlaps that its tolerance allows.
+pub(crate) const SWEPT_JOINTS: [u64; 1] = [154];
+pub(crate) const SWEPT_FUNNELS: [u64; 3] = [165, 201, 272];
+pub(crate) const SWEPT_STACKS: [u64; 2] = [142, 144];

@@ -102,6 +102,7 @@ impl<D: Detector> EventDriven<D> {
             mechanics: Mechanics::new(model, state),
         };
         let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = &mut engine;
+        trajectories.healed = D::HEALED;
         if model.len() > FEW && model.len() + WALL * model.faces.len() > FEW_LOOKS {
             schedule.lay_out(model, trajectories, rests);
         }

@@ -43,6 +43,8 @@ pub(crate) struct Trajectories {
     pub(crate) hopping: Hopping,
     /// The record of each sphere, by slot.
     pub(crate) records: Vec<Record>,
+    /// Deepest overlap at rest that is put right, in radii ([`Detector::HEALED`](super::detector::Detector::HEALED)).
+    pub(super) healed: f64,
     /// The time scale of the start, s: the size of the clock's reading at its zero.
     time_scale: f64,
     /// The slot of each sphere; empty as long as each is at its index.
@@ -84,6 +86,7 @@ impl Trajectories {
         };
         Trajectories {
             to_and_fro: false,
+            healed: 0.0,
             hopping: Hopping::default(),
             now: state.t,
             records: (0..model.len()).map(record).collect(),
@@ -93,6 +96,11 @@ impl Trajectories {
             accelerations,
             past: Vec::new(),
         }
+    }
+
+    /// Deepest overlap of the resting contacts of sphere `i` that is put right, m.
+    pub(crate) fn healed(&self, i: usize) -> f64 {
+        self.healed * self.trajectory(i).r
     }
 
     /// The time at which the clock's rounding is taken, s: now, or at the clock's zero the time scale of the start.
@@ -241,6 +249,7 @@ impl Trajectories {
     pub(crate) fn since(&self, time: f64) -> Trajectories {
         Trajectories {
             to_and_fro: self.to_and_fro,
+            healed: self.healed,
             hopping: self.hopping.since(time),
             now: self.now,
             records: self.records.clone(),

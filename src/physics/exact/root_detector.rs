@@ -15,6 +15,8 @@ impl Detector for RootDetector {
     const PAIRS_FIRST: bool = true;
     const STRAIGHT_PAIRS: bool = true;
     const ONE_LOOK: bool = true;
+    /// A contact that opens and closes over and over may sink in further than that of one rest.
+    const HEALED: f64 = 1e-10;
 
     fn new(_: Settings) -> RootDetector {
         RootDetector

@@ -43,6 +43,8 @@ impl Detector for ConservativeAdvancement {
     const PAIRS_FIRST: bool = false;
     const STRAIGHT_PAIRS: bool = false;
     const ONE_LOOK: bool = false;
+    /// What `exact` promises of an overlap: contacts are found within the tolerance, at any depth.
+    const HEALED: f64 = 1e-12;
 
     fn new(settings: Settings) -> ConservativeAdvancement {
         let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);

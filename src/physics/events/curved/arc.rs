@@ -312,7 +312,7 @@ mod tests {
     }
 
     fn sphere(x: DVec3, v: DVec3) -> Body {
-        Body { x, v, applied: DVec3::NEG_Y * G, inverse_mass: 0.5, r: 0.5 }
+        Body { x, v, applied: DVec3::NEG_Y * G, inverse_mass: 0.5, r: 0.5, healed: 5e-11 }
     }
 
     /// Which contacts carry a load now.

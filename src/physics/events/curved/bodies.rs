@@ -20,6 +20,8 @@ pub(crate) struct Body {
     pub(crate) inverse_mass: f64,
     /// Radius, m.
     pub(crate) r: f64,
+    /// Deepest overlap of its contacts that is put right, m.
+    pub(crate) healed: f64,
 }
 
 impl Body {
@@ -32,6 +34,7 @@ impl Body {
             applied: model.acceleration(i),
             inverse_mass: model.inverse_masses[i],
             r: model.radii[i],
+            healed: trajectories.healed(i),
         }
     }
 }

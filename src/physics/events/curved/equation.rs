@@ -23,9 +23,6 @@ pub(crate) const OPENED: f64 = 5e-11;
 /// nearly parallel, rounding decides which of them carries, and the other closes more slowly than its acceleration shows.
 const SUNK: f64 = 1e-13;
 
-/// Deepest overlap that is healed, in radii; deeper ones are the scene's.
-const HEALED: f64 = 1e-10;
-
 /// How far a body may be moved to put gaps right, in units of the widest of them; else the rows of which less than the
 /// inverse of this is new are left as they are. Three spheres that just fit between two walls, 1e-5 rad off their line,
 /// would move by a hundred thousand times what rounding has left of their gaps, into others.
@@ -65,8 +62,7 @@ impl<'a> ConstrainedMotion<'a> {
         let (holding, idle): (Short<Closed<'a>>, _) = (pick(true), pick(false));
         let kept = |contact: &Closed| {
             let gap = geometry(bodies, *contact).1;
-            let small = -HEALED * bodies[contact.a].r;
-            let heals = if gap < 0.0 && gap > small { -0.5 * gap } else { 0.0 };
+            let heals = if gap < 0.0 && gap > -bodies[contact.a].healed { -0.5 * gap } else { 0.0 };
             (gap + heals, heals)
         };
         let (gaps, healed): (Short<f64>, Short<f64>) = holding.iter().map(kept).unzip();

@@ -415,7 +415,7 @@ mod tests {
     fn leaves(v_n: f64, pressed: f64, low: f64) -> (f64, Fate) {
         let floor = Face::new(Parallelogram { center: DVec3::ZERO, s1: DVec3::X * 2.0, s2: DVec3::NEG_Z * 2.0 });
         let applied = DVec3::new((G * G - pressed * pressed).sqrt(), -pressed, 0.0);
-        let mut bodies = [Body { x: DVec3::Y * R, v: DVec3::Y * v_n, applied, inverse_mass: 0.5, r: R }];
+        let mut bodies = [Body { x: DVec3::Y * R, v: DVec3::Y * v_n, applied, inverse_mass: 0.5, r: R, healed: 0.0 }];
         let contacts = [Closed { a: 0, on: On::Wall(&floor, Part::Face) }];
         let settled = solve_island(&mut bodies, &contacts, (&[0.0], &[f64::INFINITY]), (1e-15, low));
         (bodies[0].v.y, settled.fate[0])
