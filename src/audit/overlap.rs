@@ -76,6 +76,7 @@ impl Overlaps {
     /// How deep bodies overlap beyond what they began with and what rounding leaves, and which: the deepest.
     pub(super) fn worst(&mut self, model: &Model, x: &[DVec3]) -> Option<(f64, Key)> {
         self.find(model, x);
+        self.move_on();
         let beyond = |at: &Touching| {
             let allowed = self.allowed.get(&at.key).copied().unwrap_or(0.0);
             let degree = (-at.gap - at.rounding) / at.reach;
@@ -96,6 +97,7 @@ impl Overlaps {
         findings: &mut Findings,
     ) {
         self.find(model, &state.x);
+        self.move_on();
         self.allow_for_the_clock(state.t, contacts);
         let curved = curved(model, &self.boards, state, contacts);
         for at in &self.found {
@@ -107,6 +109,23 @@ impl Overlaps {
             findings.hold(Fault::Overlap, state.t, at.key.into(), [-at.gap / at.reach, bound]);
         }
         self.forget_parted();
+    }
+
+    /// Has what a sphere began with on one wall move on to another that it overlaps too: on a floor of tiles it is as deep as
+    /// on one wall, and no deeper.
+    fn move_on(&mut self) {
+        if self.allowed.is_empty() {
+            return;
+        }
+        let deep: Vec<Key> =
+            self.found.iter().filter(|at| at.key.0 == Kind::Wall && at.gap < 0.0).map(|at| at.key).collect();
+        for &key in &deep {
+            let others = deep.iter().filter(|other| other.1 == key.1).filter_map(|other| self.allowed.get(other));
+            let most = others.copied().fold(0.0, f64::max);
+            if most > 0.0 {
+                self.allowed.entry(key).or_insert(most);
+            }
+        }
     }
 
     /// Allows what the clock cannot tell of bodies that have just met: so far they came in some of its ulp.

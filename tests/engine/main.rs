@@ -27,6 +27,7 @@ mod random;
 mod redundant;
 mod rest_reasons;
 mod roots;
+mod seams;
 mod seeds;
 #[path = "../support/sums.rs"]
 mod sums;

@@ -18,6 +18,9 @@ impl Mechanics {
         if self.leave_hops(model, log, key) {
             return Ok(Changed::of(key));
         }
+        if let Some(changed) = self.meet_covered(model, log, key) {
+            return changed;
+        }
         let interrupted = self.interrupt_series(model, log, key);
         match self.met(model, log, key)? {
             Changed::Nothing if interrupted => Ok(Changed::of(key)),

@@ -40,6 +40,9 @@ pub enum RestReason {
     /// The wall shares the point of a resting contact, within 1e-8 r, and neither approaches nor parts beyond rounding: the
     /// tile beyond a seam, the slope beyond a ridge.
     SharedPoint,
+    /// The point that it touches, of an edge or a corner, is one of a face that carries the sphere, to 64 ulp: it says no
+    /// more than that one, and carries nothing.
+    Covered,
 }
 
 impl RestReason {
@@ -58,6 +61,7 @@ impl RestReason {
             RestReason::Collapse => "the chain of impacts it belongs to has collapsed",
             RestReason::Squeezed => "the sphere just fits between its walls",
             RestReason::SharedPoint => "it shares the point of a contact that rests",
+            RestReason::Covered => "the face of another wall carries the sphere there",
         }
     }
 }

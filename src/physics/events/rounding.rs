@@ -19,6 +19,7 @@
 //! | [`WEDGE`] | the way out between two walls | 2 ulp | a sphere that just fits bounces for ever | a narrow wedge holds |
 //! | [`SHARED_GAP`] | a gap at a seam | 2 ulp of the coordinates | a sphere sinks in beyond a seam | walls hold too early |
 //! | [`SHARED_POINT`] | place of a seam | 1e-15 r | a sphere sinks in beyond a seam | walls hold too early |
+//! | [`COVERED_GAP`] | gap at which a search finds an edge to be touched | 256 ulp of lengths | it is met again and again | it is looked at longer |
 //! | [`TOUCHED_GAP`] | gap right after an impact | 1e-15 r | the energy of low bounces drifts | a graze counts as a bounce |
 //! | [`SUMMED_HOP`] | height of a bounce | – | millions of events before a rest | visible bounces are summed up |
 //! | [`UNTOLD`] | energy of sliding that repeated flights may lose untold | – | rubbed hops are followed one by one | energies of frames are off |
@@ -75,6 +76,9 @@ pub(crate) const WEDGE: f64 = 64.0 * f64::EPSILON;
 
 /// Gap to a wall at a point where another one is touched that counts as none, relative to the coordinates: 64 ulp.
 pub(crate) const SHARED_GAP: f64 = 64.0 * f64::EPSILON;
+
+/// Gap up to which an edge that a face covers is held without carrying, relative to the coordinates and the wall: a search finds it to be touched from up to 256 ulp of the sum of all lengths that it is found from.
+pub(crate) const COVERED_GAP: f64 = 4096.0 * f64::EPSILON;
 
 /// Contacts of one sphere are at one point if no farther apart than this, in radii: between rounding, and an angle at
 /// which the approach to the second wall shows before it overlaps.

@@ -5,6 +5,7 @@
 //! flight to bounce in: the contacts rest, pressed or not, and the sphere slides between them.
 
 use super::contact_state::ContactState;
+use super::islands::covered::leave_out_covered;
 use super::mechanics::Mechanics;
 use super::record::Record;
 use super::rest_reason::RestReason;
@@ -48,7 +49,7 @@ impl Mechanics {
     }
 }
 
-/// The contacts of a sphere with those of some walls that it touches now, to rounding.
+/// The contacts of a sphere with those of some walls that it touches now, to rounding; edges that a face covers are none.
 pub(super) fn walls_touched(
     model: &Model,
     trajectories: &Trajectories,
@@ -60,7 +61,9 @@ pub(super) fn walls_touched(
     let slack = touching(r, x.abs().max_element());
     let touches = |face: &Face| !face.is_farther(x, r + slack) && touch(face, x, r).gap <= slack;
     let touched = walls.filter(|&wall| touches(&model.faces[wall]));
-    touched.map(|wall| (Kind::Wall, i, wall)).collect()
+    let mut touched = touched.map(|wall| (Kind::Wall, i, wall)).collect();
+    leave_out_covered(model, (x, r), &mut touched);
+    touched
 }
 
 /// The contacts among those of one sphere with walls that cannot open: the nearest way to straight off the wall that none

@@ -10,12 +10,11 @@ use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::curved::bodies::Body;
 use crate::physics::events::mechanics::Mechanics;
 use crate::physics::events::rest_reason::RestReason;
-use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, HOP, PAUSE, SHARED_GAP, SHARED_POINT, SUM, SUMMED_HOP};
+use crate::physics::events::rounding::{CLOCK_ULPS, DRIVEN, HOP, PAUSE, SUM, SUMMED_HOP};
 use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
 use crate::physics::support::{Fate, Short, islands};
-use crate::physics::wall::{Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::{part_ahead, part_end, room};
 
 /// Arcs in a row that are over at once, after which an island creeps for a moment: solving it again changes nothing.
@@ -58,7 +57,7 @@ impl Mechanics {
         }
     }
 
-    fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
+    pub(super) fn release(&mut self, model: &Model, log: &mut Log, key: Key) {
         if let Some(held) = self.rests.drop(key) {
             let meeting = self.trajectories.contact_state(model, key);
             let now = self.trajectories.now;
@@ -189,9 +188,11 @@ impl Mechanics {
             self.add_walls_at_point(model, i);
         }
         // what has just been added is solved here too
+        let covered = self.covered(model, log, &spheres);
         self.rests.dirty.clear();
         let mut keys: Short<Key> = Short::new();
         spheres.iter().for_each(|&i| keys.extend_from_slice(&self.rests.of[i]));
+        keys.retain(|key| covered.binary_search(key).is_err());
         keys.sort_unstable();
         keys.dedup();
         let mut open: Vec<Short<Key>> = vec![keys];
@@ -202,6 +203,7 @@ impl Mechanics {
                 open.extend(self.settle_island(model, log, &connected)?);
             }
         }
+        self.uncover(model, log, &covered);
         for &i in &spheres {
             if self.rests.of[i].is_empty() {
                 self.trajectories.accelerate(i, model.acceleration(i));
@@ -209,45 +211,6 @@ impl Mechanics {
             self.trajectories.check_range(i)?;
         }
         Ok(self.changed(spheres))
-    }
-
-    /// Adds the walls that share a resting contact's point with its wall: the tile beyond a seam, the slope beyond a
-    /// ridge. Their gap and its rate of change are 0 then, so that no approach announces them; unless they belong to the
-    /// island when the closest point moves on to them, the sphere would sink in.
-    fn add_walls_at_point(&mut self, model: &Model, i: usize) {
-        if !self.rests.of[i].iter().any(|key| key.0 == Kind::Wall) {
-            return;
-        }
-        let path = self.trajectories.path(i, self.trajectories.now);
-        let r = model.radii[i];
-        let shared = |wall: usize, part: Part| touch_part(&model.faces[wall], part, path.x, r);
-        let held: Vec<(usize, Touch)> = (self.rests.of[i].iter().filter(|key| key.0 == Kind::Wall))
-            .map(|&key| (key.2, shared(key.2, self.rests.kept(key).part)))
-            .collect();
-        let size = path.x.abs().max_element().max(r);
-        let open = held.iter().map(|(_, at)| at.gap).fold(0.0, f64::max);
-        let most = open + SHARED_GAP * size;
-        for wall in 0..model.faces.len() {
-            if held.iter().any(|&(other, _)| other == wall) {
-                continue;
-            }
-            // the plane is never farther than the wall
-            if model.faces[wall].height(path.x).abs() - r > most {
-                continue;
-            }
-            let at = touch(&model.faces[wall], path.x, r);
-            let near = |(_, held): &(usize, Touch)| {
-                held.point.distance_squared(at.point) <= (SHARED_POINT * r) * (SHARED_POINT * r)
-            };
-            if at.gap > most || !held.iter().any(near) {
-                continue;
-            }
-            let meeting = self.trajectories.contact_state(model, (Kind::Wall, i, wall));
-            let pull = model.acceleration(i).length();
-            if meeting.v_n.abs() <= SUM * path.v.length() || meeting.hops_within_rounding(pull) {
-                self.rests.add(model, &self.trajectories, &meeting, RestReason::SharedPoint, self.trajectories.now);
-            }
-        }
     }
 
     /// The connected sets of some contacts, by their places in the list.
@@ -268,12 +231,12 @@ impl Mechanics {
         if !settled.converged {
             return Err(self.not_held(keys));
         }
-        for (place, &i) in spheres.iter().enumerate() {
-            self.trajectories.rewrite(i, bodies[place].x, bodies[place].v);
-            self.trajectories.accelerate(i, settled.a[place] * self.share_of_pull(keys));
+        if settled.curved
+            && let Some(more) = self.carry_covered(keys, &spheres)
+        {
+            return Ok(Some(more));
         }
-        self.write_rest_events(model, log, keys, &settled);
-        self.rests.carry(keys, &settled.forces, self.trajectories.now);
+        self.take_over(model, log, keys, (&spheres, &bodies, &settled));
         let opens = |(&key, fate): (&Key, &Fate)| (*fate == Fate::Opening).then_some(key);
         let opening: Short<Key> = keys.iter().zip(&settled.fate).filter_map(opens).collect();
         let (stuck, opening): (Short<Key>, Short<Key>) =
@@ -308,6 +271,22 @@ impl Mechanics {
         Ok(None)
     }
 
+    /// Gives spheres what their island has been solved to, and writes what its contacts do.
+    fn take_over(
+        &mut self,
+        model: &Model,
+        log: &mut Log,
+        keys: &[Key],
+        (spheres, bodies, settled): (&[usize], &[Body], &Settled),
+    ) {
+        for (place, &i) in spheres.iter().enumerate() {
+            self.trajectories.rewrite(i, bodies[place].x, bodies[place].v);
+            self.trajectories.accelerate(i, settled.a[place] * self.share_of_pull(keys));
+        }
+        self.write_rest_events(model, log, keys, settled);
+        self.rests.carry(keys, &settled.forces, self.trajectories.now);
+    }
+
     /// Sends the members of an island on their way, on a curve or on parabolas, by their accelerations (m/s²) and the
     /// forces (N) of its contacts, of which those that are stuck are held for a moment.
     fn begin_motion(
@@ -329,6 +308,7 @@ impl Mechanics {
             self.set_chord(&spheres, curve.cut(pause.min(self.settling_time(keys) - now)));
         } else {
             let end = self.parts_end(model, &spheres, &contacts).min(self.settling_time(keys));
+            let end = end.min(self.covered_end(model, &spheres));
             self.rests.insert_island(Island { spheres, end, curve: None }, now);
         }
     }

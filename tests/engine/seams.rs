@@ -1,0 +1,104 @@
+//! Next to a seam, where the closest points of two walls nearly coincide, each scene with its closed form.
+
+use crate::support::{G, go, scene, sphere, wall};
+use carom::physics::{Kind, Method, RestReason, Scene, Settings, Simulation, State};
+use carom::scene::{ContactLaw, Wall};
+use glam::{DVec3, dvec3};
+
+/// Nothing bounces, rubs or rests by being slow.
+const DEAD: ContactLaw = ContactLaw { restitution: 0.0, wall_restitution: 0.0, tangential: 1.0, rest_speed: 0.0 };
+
+/// Both event-driven methods; `swept` finds contacts as deep as its tolerance, which is no deeper than rounding here.
+const METHODS: [Settings; 2] = [
+    Settings { method: Method::Exact, dt: 0.5, tolerance: 1e-3 },
+    Settings { method: Method::Swept, dt: 0.5, tolerance: 1e-15 },
+];
+
+/// A tile of 2 m by 4 m from x = `from` (m) on.
+fn tile(from: f64) -> Wall {
+    wall(dvec3(from + 1.0, 0.0, 0.0), DVec3::X * 2.0, DVec3::NEG_Z * 4.0)
+}
+
+/// A slope down from x = 0 on, by half a radian.
+fn slope() -> Wall {
+    wall(dvec3(1.0, -0.5, 0.0), dvec3(2.0, -1.0, 0.0), DVec3::NEG_Z * 4.0)
+}
+
+/// The state of a ball of 1 m at time `t` (s) that begins at height `y` (m), `x` (m) beyond the border of the first wall.
+fn ball_at(walls: &[Wall], law: ContactLaw, [x, y]: [f64; 2], v: f64, (settings, t): (Settings, f64)) -> State {
+    let mut run = Simulation::new(&begin(walls, law, [x, y], v), settings);
+    go(&mut run, t);
+    run.at(t)
+}
+
+fn begin(walls: &[Wall], law: ContactLaw, [x, y]: [f64; 2], v: f64) -> Scene {
+    scene(G, law, walls.to_vec(), vec![sphere(dvec3(x, y, 0.0), DVec3::X * v, 1.0)])
+}
+
+/// Two tiles in either order, and a tile above a slope in either order.
+fn joints() -> [Vec<Wall>; 4] {
+    [vec![tile(-2.0), tile(0.0)], vec![tile(0.0), tile(-2.0)], vec![tile(-2.0), slope()], vec![slope(), tile(-2.0)]]
+}
+
+#[test]
+fn a_ball_at_rest_beside_a_seam_lies_still() {
+    for (joint, walls) in joints().iter().enumerate() {
+        for x in [-1e-3, -1e-6, -1e-8, -1e-10, -1e-12, 1e-12, 1e-10, 1e-8, 1e-6, 1e-3] {
+            // beyond the ridge it would roll down
+            if x > 0.0 && joint >= 2 {
+                continue;
+            }
+            for settings in METHODS {
+                let end = ball_at(walls, DEAD, [x, 1.0], 0.0, (settings, 10.0));
+                assert_eq!((end.x[0].x, end.v[0]), (x, DVec3::ZERO), "joint {joint}, {:?}", settings.method);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ball_passes_a_seam_however_slowly_it_rolls() {
+    for walls in &joints()[..2] {
+        for (x, v) in [(-1e-3, 1e-4), (-1e-5, 1e-6), (-1e-6, 1e-7), (-1e-8, 1e-8), (-1e-9, 1e-9), (-1e-12, 1e-12)] {
+            for settings in METHODS {
+                let end = ball_at(walls, DEAD, [x, 1.0], v, (settings, -2.0 * x / v));
+                // 1e-12 m are asked; the clock's rounding over such times is far below
+                assert!((end.x[0].x + x).abs() <= 1e-9 * v, "from {x}, {:?}: {}", settings.method, end.x[0]);
+                assert_eq!((end.v[0].x, end.x[0].y), (v, 1.0), "from {x}, {:?}", settings.method);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ball_that_lands_beside_a_seam_goes_on_as_on_one_wall() {
+    let one = [wall(DVec3::ZERO, DVec3::X * 4.0, DVec3::NEG_Z * 4.0)];
+    // it falls by half a metre
+    let falls = (1.0 / -G.y).sqrt();
+    for (e, tangential) in [(1.0, 1.0), (0.5, 1.0), (0.5, 0.5), (0.0, 1.0), (0.0, 0.5)] {
+        let law = ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.0 };
+        for walls in &joints()[..2] {
+            for beyond in [-1e-7, -1e-9, -1e-12, 0.0, 1e-12, 1e-9, 1e-7] {
+                for v in [-1.0, 0.0, 1e-3, 1.0] {
+                    let state =
+                        |walls: &[Wall]| ball_at(walls, law, [beyond - v * falls, 1.5], v, (METHODS[0], 1.5)).x[0];
+                    // rounding of the time of one impact, times the speeds
+                    let apart = state(walls).distance(state(&one));
+                    assert!(apart <= 1e-14, "e {e}, {tangential}, {beyond} m beyond at {v} m/s: {apart:e} m");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn only_the_face_is_told_to_carry_and_not_the_edge_beside_it() {
+    for settings in METHODS {
+        let mut run = Simulation::new(&begin(&[tile(-2.0), tile(0.0)], DEAD, [1e-9, 1.0], 0.0), settings);
+        go(&mut run, 1.0);
+        let reasons = [0, 1].map(|tile| run.rest_reason((Kind::Wall, 0, tile)));
+        assert_eq!(reasons, [None, Some(RestReason::Touching)], "{:?}", settings.method);
+        let told: Vec<usize> = run.contacts().iter().map(|row| row.b).collect();
+        assert_eq!(told, [1], "{:?}", settings.method);
+    }
+}
