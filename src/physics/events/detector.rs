@@ -35,14 +35,13 @@ pub(crate) trait Detector: std::fmt::Debug + Clone {
     /// Whether one look at a pair, by either of its spheres, is enough: it does not end where the other meets something else.
     const ONE_LOOK: bool;
 
-    /// Deepest overlap at rest that is taken for rounding and put right little by little, in radii: deeper ones are the scene's,
-    /// or lie within the tolerance, and to lift bodies out of them would give energy that nothing has paid for.
-    const HEALED: f64;
-
     /// A detector with these knobs.
     fn new(settings: Settings) -> Self;
     /// Takes other knobs; whether its answers change by that.
     fn retune(&mut self, settings: Settings) -> bool;
+    /// Deepest overlap at rest that is taken for rounding and put right little by little, in radii: deeper ones are the scene's,
+    /// or lie within the tolerance, and to lift bodies out of them would give energy that nothing has paid for.
+    fn healed(&self) -> f64;
     /// When a sphere of radius `r` (m) on `path` next touches a wall while approaching it.
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due>;
     /// When two spheres on `a` and `b` whose radii sum to `reach` (m) next touch while approaching.

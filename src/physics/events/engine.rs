@@ -102,7 +102,7 @@ impl<D: Detector> EventDriven<D> {
             mechanics: Mechanics::new(model, state),
         };
         let EventDriven { schedule, mechanics: Mechanics { trajectories, rests, .. }, .. } = &mut engine;
-        trajectories.healed = D::HEALED;
+        trajectories.healed = schedule.detector.healed();
         if model.len() > FEW && model.len() + WALL * model.faces.len() > FEW_LOOKS {
             schedule.lay_out(model, trajectories, rests);
         }
@@ -186,6 +186,7 @@ impl<D: Detector> EventDriven<D> {
         let changes = self.schedule.detector.retune(settings);
         if changes {
             let Mechanics { trajectories, rests, .. } = &mut self.mechanics;
+            trajectories.healed = self.schedule.detector.healed();
             self.schedule.predict_all(model, trajectories, rests);
         }
         changes

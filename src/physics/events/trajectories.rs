@@ -43,7 +43,7 @@ pub(crate) struct Trajectories {
     pub(crate) hopping: Hopping,
     /// The record of each sphere, by slot.
     pub(crate) records: Vec<Record>,
-    /// Deepest overlap at rest that is put right, in radii ([`Detector::HEALED`](super::detector::Detector::HEALED)).
+    /// Deepest overlap at rest that is put right, in radii ([`Detector::healed`](super::detector::Detector::healed)).
     pub(super) healed: f64,
     /// The time scale of the start, s: the size of the clock's reading at its zero.
     time_scale: f64,

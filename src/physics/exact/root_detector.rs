@@ -7,6 +7,10 @@ use crate::physics::model::Settings;
 use crate::physics::path::Path;
 use crate::physics::wall::Face;
 
+/// Deepest overlap at rest that rounding leaves, in radii: a contact that opens and closes over and over may sink in further
+/// than the 1e-12 of one rest.
+const ROUNDING: f64 = 1e-10;
+
 /// The detector of `exact`: every answer is a contact, exact up to rounding, and costs the same wherever it lies.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RootDetector;
@@ -15,8 +19,6 @@ impl Detector for RootDetector {
     const PAIRS_FIRST: bool = true;
     const STRAIGHT_PAIRS: bool = true;
     const ONE_LOOK: bool = true;
-    /// A contact that opens and closes over and over may sink in further than that of one rest.
-    const HEALED: f64 = 1e-10;
 
     fn new(_: Settings) -> RootDetector {
         RootDetector
@@ -24,6 +26,10 @@ impl Detector for RootDetector {
 
     fn retune(&mut self, _: Settings) -> bool {
         false
+    }
+
+    fn healed(&self) -> f64 {
+        ROUNDING
     }
 
     #[inline]

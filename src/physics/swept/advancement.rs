@@ -25,6 +25,13 @@ use crate::roots::quadratic_fall;
 /// Gaps up to this many radii are looked at to the end, wider ones when they have become so.
 const NEAR: f64 = 1e-3;
 
+/// Deepest overlap at rest that rounding leaves, in radii, and [`SHALLOW`] where the tolerance leaves deeper ones: contacts
+/// are found at any depth within it then.
+const ROUNDING: f64 = 1e-10;
+
+/// An overlap that `exact` counts as none, in radii.
+const SHALLOW: f64 = 1e-12;
+
 /// Looks at two bodies after which the search is interrupted, to go on from there.
 const PATIENCE: usize = 200;
 
@@ -43,8 +50,6 @@ impl Detector for ConservativeAdvancement {
     const PAIRS_FIRST: bool = false;
     const STRAIGHT_PAIRS: bool = false;
     const ONE_LOOK: bool = false;
-    /// What `exact` promises of an overlap: contacts are found within the tolerance, at any depth.
-    const HEALED: f64 = 1e-12;
 
     fn new(settings: Settings) -> ConservativeAdvancement {
         let tolerance = settings.tolerance.min(LARGEST_TOLERANCE);
@@ -58,6 +63,10 @@ impl Detector for ConservativeAdvancement {
             *self = new;
         }
         changes
+    }
+
+    fn healed(&self) -> f64 {
+        if self.tolerance <= ROUNDING { ROUNDING } else { SHALLOW }
     }
 
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {
