@@ -20,6 +20,7 @@
 //! | [`SHARED_GAP`] | a gap at a seam | 2 ulp of the coordinates | a sphere sinks in beyond a seam | walls hold too early |
 //! | [`SHARED_POINT`] | place of a seam | 1e-15 r | a sphere sinks in beyond a seam | walls hold too early |
 //! | [`COVERED_GAP`] | gap at which a search finds an edge to be touched | 256 ulp of lengths | it is met again and again | it is looked at longer |
+//! | [`HEALED`], [`HEALED_WITHIN_TOLERANCE`] | overlap of what rests, over many rests | up to 1e-11 r | overlaps add up | bodies are lifted for nothing |
 //! | [`TOUCHED_GAP`] | gap right after an impact | 1e-15 r | the energy of low bounces drifts | a graze counts as a bounce |
 //! | [`SUMMED_HOP`] | height of a bounce | – | millions of events before a rest | visible bounces are summed up |
 //! | [`UNTOLD`] | energy of sliding that repeated flights may lose untold | – | rubbed hops are followed one by one | energies of frames are off |
@@ -79,6 +80,13 @@ pub(crate) const SHARED_GAP: f64 = 64.0 * f64::EPSILON;
 
 /// Gap up to which an edge that a face covers is held without carrying, relative to the coordinates and the wall: a search finds it to be touched from up to 256 ulp of the sum of all lengths that it is found from.
 pub(crate) const COVERED_GAP: f64 = 4096.0 * f64::EPSILON;
+
+/// Deepest overlap at rest that is rounding and put right, in radii: a contact that opens and closes over and over may sink in
+/// further than the 1e-12 r of one rest.
+pub(crate) const HEALED: f64 = 1e-10;
+
+/// Deepest overlap at rest that is put right where a tolerance leaves deeper ones, in radii: contacts are found at any depth within it then.
+pub(crate) const HEALED_WITHIN_TOLERANCE: f64 = 1e-12;
 
 /// Contacts of one sphere are at one point if no farther apart than this, in radii: between rounding, and an angle at
 /// which the approach to the second wall shows before it overlaps.

@@ -2,14 +2,11 @@
 
 use crate::physics::contact_time::{sphere_sphere, sphere_wall};
 use crate::physics::events::detector::{Detector, Due, Span};
+use crate::physics::events::rounding::HEALED;
 use crate::physics::log::Log;
 use crate::physics::model::Settings;
 use crate::physics::path::Path;
 use crate::physics::wall::Face;
-
-/// Deepest overlap at rest that rounding leaves, in radii: a contact that opens and closes over and over may sink in further
-/// than the 1e-12 of one rest.
-const ROUNDING: f64 = 1e-10;
 
 /// The detector of `exact`: every answer is a contact, exact up to rounding, and costs the same wherever it lies.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +26,7 @@ impl Detector for RootDetector {
     }
 
     fn healed(&self) -> f64 {
-        ROUNDING
+        HEALED
     }
 
     #[inline]

@@ -14,7 +14,7 @@ use std::cell::{Cell, RefCell};
 use super::separation::{Gap, PairSeparation, Separation, WallSeparation};
 use crate::physics::contact::Probe;
 use crate::physics::events::detector::{Detector, Due, Span};
-use crate::physics::events::rounding::{CLOSING, HOP};
+use crate::physics::events::rounding::{CLOSING, HEALED, HEALED_WITHIN_TOLERANCE, HOP};
 use crate::physics::log::Log;
 use crate::physics::method::LARGEST_TOLERANCE;
 use crate::physics::model::Settings;
@@ -24,13 +24,6 @@ use crate::roots::quadratic_fall;
 
 /// Gaps up to this many radii are looked at to the end, wider ones when they have become so.
 const NEAR: f64 = 1e-3;
-
-/// Deepest overlap at rest that rounding leaves, in radii, and [`SHALLOW`] where the tolerance leaves deeper ones: contacts
-/// are found at any depth within it then.
-const ROUNDING: f64 = 1e-10;
-
-/// An overlap that `exact` counts as none, in radii.
-const SHALLOW: f64 = 1e-12;
 
 /// Looks at two bodies after which the search is interrupted, to go on from there.
 const PATIENCE: usize = 200;
@@ -66,7 +59,7 @@ impl Detector for ConservativeAdvancement {
     }
 
     fn healed(&self) -> f64 {
-        if self.tolerance <= ROUNDING { ROUNDING } else { SHALLOW }
+        if self.tolerance <= HEALED { HEALED } else { HEALED_WITHIN_TOLERANCE }
     }
 
     fn wall(&self, path: &Path, r: f64, face: &Face, span: Span) -> Option<Due> {

@@ -2,15 +2,14 @@
 //! tile beside the one that carries a sphere.
 //!
 //! Near a seam the closest point of the next tile belongs to both. A sphere that does not overlap the face of the one does
-//! not overlap any of its points, so that the edge of the other says nothing more; its distance differs by half a square of the way to
-//! the seam, less than rounding within 1e-8 r, but its normal by all of it: a sphere at rest would roll off, one that
-//! lands there would be turned aside. So the face alone is struck and carries.
+//! not overlap any of its points, so that the edge of the other says nothing more; its distance differs by half a square of
+//! the way to the seam, less than rounding within 1e-8 r, but its normal by all of it: a sphere at rest would roll off, one
+//! that lands there would be turned aside. So the face alone is struck and carries.
 
 use glam::DVec3;
 
 use crate::physics::contact::{Key, Kind};
 use crate::physics::events::changed::Changed;
-use crate::physics::events::contact_state::ContactState;
 use crate::physics::events::mechanics::Mechanics;
 use crate::physics::events::rest_reason::RestReason;
 use crate::physics::events::rounding::{COVERED_GAP, SHARED_GAP, SHARED_POINT, SUM};
@@ -21,10 +20,14 @@ use crate::physics::support::Short;
 use crate::physics::wall::{Face, Part, Touch, touch, touch_part};
 use crate::physics::wall_parts::part_end;
 
+/// Whether the point of an edge or a corner that a sphere touches is one of a face, to rounding.
+fn contains(face: &Face, at: &Touch) -> bool {
+    !face.is_farther(at.point, 0.0)
+}
+
 /// Whether the point of an edge or a corner that a sphere touches is one of a face above which the sphere is.
 fn covers(face: &Face, at: &Touch, x: DVec3) -> bool {
-    // a face farther from the point than rounding does not contain it
-    face.shades(x) && !face.is_farther(at.point, 0.0)
+    face.shades(x) && contains(face, at)
 }
 
 /// Leaves out the contacts of a sphere at `x` (m), of radius `r` (m), with edges and corners that another of these walls
@@ -76,20 +79,15 @@ impl Mechanics {
                 walls.partition(|&key| self.rests.kept(key).part == Part::Face);
             for &key in &faces {
                 // what the closest point has moved on to carries by itself
-                let held = self.rests.kept_mut(key);
-                if held.reason == RestReason::Covered {
-                    held.reason = RestReason::SharedPoint;
+                if self.is_covered(key) {
+                    self.rests.kept_mut(key).reason = RestReason::SharedPoint;
                 }
-            }
-            let is_held_covered = |key: &Key| self.rests.kept(*key).reason == RestReason::Covered;
-            if outlines.is_empty() || faces.is_empty() && !outlines.iter().any(is_held_covered) {
-                continue;
             }
             let (x, r) = (self.trajectories.path(i, self.trajectories.now).x, model.radii[i]);
             for key in outlines {
                 let at = touch_part(&model.faces[key.2], self.rests.kept(key).part, x, r);
-                let holds = |face: &Key| !model.faces[face.2].is_farther(at.point, 0.0);
-                if self.cover(model, log, (key, at.gap), faces.iter().any(holds)) {
+                let is_covered = faces.iter().any(|face| contains(&model.faces[face.2], &at));
+                if self.cover(model, log, (key, at.gap), is_covered) {
                     covered.push(key);
                 }
             }
@@ -102,11 +100,11 @@ impl Mechanics {
     /// none covers it any longer it may carry again, or is dropped where it does not touch. Whether it stays covered.
     fn cover(&mut self, model: &Model, log: &mut Log, (key, gap): (Key, f64), is_covered: bool) -> bool {
         let held = *self.rests.kept(key);
-        let (now, was_covered) = (self.trajectories.now, held.reason == RestReason::Covered);
+        let (now, was_covered) = (self.trajectories.now, self.is_covered(key));
         if held.rub.is_some() || held.settles_at > now || !is_covered && !was_covered {
             return false;
         }
-        let contact: ContactState = self.trajectories.contact_state(model, key);
+        let contact = self.trajectories.contact_state(model, key);
         let size = contact.size();
         let near = if is_covered { COVERED_GAP * size.max(model.faces[key.2].size()) } else { SHARED_GAP * size };
         if is_covered && was_covered && gap <= near {
@@ -132,7 +130,7 @@ impl Mechanics {
         let path = self.trajectories.path(i, self.trajectories.now);
         let r = model.radii[i];
         let shared = |wall: usize, part: Part| touch_part(&model.faces[wall], part, path.x, r);
-        let touches = |key: &&Key| key.0 == Kind::Wall && self.rests.kept(**key).reason != RestReason::Covered;
+        let touches = |key: &&Key| key.0 == Kind::Wall && !self.is_covered(**key);
         let held: Vec<(usize, Touch)> = (self.rests.of[i].iter().filter(touches))
             .map(|&key| (key.2, shared(key.2, self.rests.kept(key).part)))
             .collect();
@@ -165,29 +163,29 @@ impl Mechanics {
     /// Lets go of those of these contacts whose face has let go: the sphere may come to them by another way.
     pub(super) fn uncover(&mut self, model: &Model, log: &mut Log, covered: &[Key]) {
         for &key in covered {
-            let is_covered = |key| self.rests.holds(key) && self.rests.kept(key).reason == RestReason::Covered;
-            if !is_covered(key) {
+            if !self.rests.holds(key) || !self.is_covered(key) {
                 continue; // it has been solved with the others
             }
-            let (at, faces) = self.outline_and_faces(model, key);
-            if !faces.iter().any(|face| !model.faces[face.2].is_farther(at.point, 0.0)) {
+            let (x, part) = (self.trajectories.path(key.1, self.trajectories.now).x, self.rests.kept(key).part);
+            let at = touch_part(&model.faces[key.2], part, x, model.radii[key.1]);
+            let carries = |other: &Key| {
+                let is_face = other.0 == Kind::Wall && self.rests.kept(*other).part == Part::Face;
+                is_face && contains(&model.faces[other.2], &at)
+            };
+            if !self.rests.of[key.1].iter().any(carries) {
                 self.release(model, log, key);
             }
         }
     }
 
-    /// What a resting contact with an edge or a corner touches, and the resting contacts of its sphere with faces.
-    fn outline_and_faces(&self, model: &Model, key: Key) -> (Touch, Short<Key>) {
-        let (x, part) = (self.trajectories.path(key.1, self.trajectories.now).x, self.rests.kept(key).part);
-        let is_face = |other: &Key| other.0 == Kind::Wall && self.rests.kept(*other).part == Part::Face;
-        let faces = self.rests.of[key.1].iter().copied().filter(is_face).collect();
-        (touch_part(&model.faces[key.2], part, x, model.radii[key.1]), faces)
+    /// Whether a contact rests only because a face covers it.
+    fn is_covered(&self, key: Key) -> bool {
+        self.rests.kept(key).reason == RestReason::Covered
     }
 
     /// The resting contacts of these spheres that are covered.
     fn covered_of<'a>(&'a self, spheres: &'a [usize]) -> impl Iterator<Item = Key> + 'a {
-        let is_covered = |key: &Key| key.0 == Kind::Wall && self.rests.kept(*key).reason == RestReason::Covered;
-        spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).filter(is_covered)
+        spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).filter(|&key| self.is_covered(key))
     }
 
     /// The contacts of an island that moves on a curve, and those of its spheres that are covered, which nothing would look

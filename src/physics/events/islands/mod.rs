@@ -2,8 +2,8 @@
 //!
 //! `resting` keeps them, with the islands that they form; `settling` is what events do to islands, and solves those that
 //! have changed once no contact is left at an instant; `equilibrium` solves one island; `loads` is what contacts carry;
-//! `releases` finds those that let go again and again; `covered` keeps
-//! the edges that say no more than the face beside them.
+//! `releases` finds those that let go again and again; `covered` adds the walls
+//! that share a contact's point, and keeps the edges that say no more than the face beside them.
 
 pub(super) mod covered;
 pub(super) mod equilibrium;
