@@ -37,7 +37,7 @@ impl Axes {
     }
 
     /// Across turned upwards by an angle, rad.
-    fn slope(&self, angle: f64) -> DVec3 {
+    pub(crate) fn slope(&self, angle: f64) -> DVec3 {
         self.across * angle.cos() + self.up * angle.sin()
     }
 
@@ -49,7 +49,7 @@ impl Axes {
 }
 
 /// Any angle, from 1e-12 rad to a knife's edge, up or down.
-fn angle(random: &mut Random) -> f64 {
+pub(crate) fn angle(random: &mut Random) -> f64 {
     let sign = random.pick(&[1.0, -1.0]);
     sign * if random.unit() < 0.5 { random.decade(-12.0, -1.0) } else { random.between(0.05, 1.5) }
 }

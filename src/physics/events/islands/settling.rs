@@ -82,23 +82,26 @@ impl Mechanics {
         }
         let mut interrupted = false;
         for &i in Changed::of(struck).spheres() {
-            for key in self.rests.of(i).to_vec() {
-                let held = self.rests.kept(key);
-                let Some(rub) = held.rub.filter(|_| key != struck && held.settles_at > self.trajectories.now) else {
-                    continue;
-                };
-                self.advance(model, i);
-                let (normal, line) =
-                    (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(i));
-                self.release(model, log, key);
-                let v = rub.interrupt(line.v, normal, self.trajectories.now, model.acceleration(i));
-                self.trajectories.rewrite(i, line.x, v);
-                self.trajectories.mark_changed(i);
-                self.rests.dirty.push(i);
-                interrupted = true;
+            for key in self.rests.of(i).to_vec().into_iter().filter(|&key| key != struck) {
+                interrupted |= self.interrupt_bounces(model, log, key);
             }
         }
         interrupted
+    }
+
+    /// Ends a rest whose bounces were summed up and are not over; whether it was one. From now on they are told one by one,
+    /// from the velocity that they have left the sphere.
+    fn interrupt_bounces(&mut self, model: &Model, log: &mut Log, key: Key) -> bool {
+        let (held, i) = (self.rests.kept(key), key.1);
+        let Some(rub) = held.rub.filter(|_| held.settles_at > self.trajectories.now) else { return false };
+        self.advance(model, i);
+        let (normal, line) = (self.trajectories.contact_state(model, key).normal, *self.trajectories.trajectory(i));
+        self.release(model, log, key);
+        let v = rub.interrupt(line.v, normal, self.trajectories.now, model.acceleration(i));
+        self.trajectories.rewrite(i, line.x, v);
+        self.trajectories.mark_changed(i);
+        self.rests.dirty.push(i);
+        true
     }
 
     /// Has the spheres of a contact that no longer rest on anything pulled as in flight from now on: what they meet at this
@@ -114,7 +117,7 @@ impl Mechanics {
 
     /// Handles the end of an island's parabolas: a foot comes to the end of its part, an arc or its chord is over. Returns
     /// the spheres whose motion that has changed.
-    pub(crate) fn end_parabola(&mut self, model: &Model, leader: usize) -> Changed {
+    pub(crate) fn end_parabola(&mut self, model: &Model, log: &mut Log, leader: usize) -> Changed {
         let now = self.trajectories.now;
         let island = self.rests.island(leader).expect("an end that is due is that of an island");
         let spheres = island.spheres.clone();
@@ -134,11 +137,11 @@ impl Mechanics {
             let path = self.trajectories.path(i, now);
             for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
                 let (face, r) = (&model.faces[key.2], model.radii[i]);
-                let held = self.rests.kept_mut(key);
                 // What has not come to its border keeps its part: ahead of it is an edge that it is not at.
                 let told = HOP * path.x.abs().max_element().max(r) + path.v.length() * self.trajectories.clock_ulp();
-                if room(face, held.part, path.x) <= told {
-                    held.part = part_ahead(face, path.x, path.v, path.a, r);
+                // bounces on a face are not summed up beyond its border
+                if room(face, self.rests.kept(key).part, path.x) <= told && !self.interrupt_bounces(model, log, key) {
+                    self.rests.kept_mut(key).part = part_ahead(face, path.x, path.v, path.a, r);
                 }
             }
         }
@@ -246,8 +249,13 @@ impl Mechanics {
             self.begin_motion(model, keys, members, (settled.a, settled.forces, settled.curved), stuck);
             return Ok(None);
         }
+        let mut interrupted = false;
         for &key in &opening {
-            self.release(model, log, key);
+            if self.interrupt_bounces(model, log, key) {
+                interrupted = true;
+            } else {
+                self.release(model, log, key);
+            }
             self.ensure_separating(model, key, 0.0);
         }
         let stays = |index: &usize| opening.binary_search(&keys[*index]).is_err();
@@ -258,7 +266,7 @@ impl Mechanics {
             self.trajectories.trajectory(*i).v.distance(body.v) > rounding * body.v.length()
         };
         let carried = gone.iter().any(|&index| settled.forces[index] > 0.0);
-        let moves = carried || !settled.cleared || spheres.iter().zip(&bodies).any(moved);
+        let moves = carried || interrupted || !settled.cleared || spheres.iter().zip(&bodies).any(moved);
         if moves || left.len() < 2 || self.groups(&left).len() > 1 {
             return Ok(Some(left));
         }
