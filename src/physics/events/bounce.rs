@@ -109,11 +109,17 @@ impl Trajectories {
 impl Mechanics {
     /// Right after an impact on a wall that rubs: if the bounces that follow are too low to be worth a look, the sphere
     /// goes on along the wall with their mean velocity, and will have, when they are over, the velocity that they leave.
+    #[inline]
     pub(crate) fn sum_up(&mut self, model: &Model, contact: &ContactState) {
-        let a = contact.key.1;
-        if !self.leaves_a_series(model, contact) {
-            return;
+        if self.leaves_a_series(model, contact) {
+            self.sum_up_series(model, contact);
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn sum_up_series(&mut self, model: &Model, contact: &ContactState) {
+        let a = contact.key.1;
         let bounces = self.trajectories.bounces(model, contact);
         let lone = contact.flat && self.rests.count(a) == 0;
         // what else holds the sphere decides how it is pulled: that must not matter before the bounces are over
@@ -158,6 +164,8 @@ impl Mechanics {
 
     /// Turns an approach by rounding round, without loss: were it stopped, in a crowd the next contact would approach by
     /// rounding, and then again this one, for ever. So it is handed on like a blow in a cradle, until it has gone.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn reflect_rounding_approach(&mut self, model: &Model, contact: &ContactState) {
         let (kind, a, b) = contact.key;
         let change = -contact.v_n + self.trajectories.min_separation_speed(contact).max(-contact.v_n);

@@ -80,7 +80,9 @@ impl Frame {
 
     /// Sets the end of the frame: `dt` (s) after its beginning, and so far at least that the clock moves on.
     fn set_end(&mut self, dt: f64) {
-        self.end = (self.time + dt).max(self.time.next_up()).max(self.goal).min(f64::MAX);
+        let end = self.time + dt;
+        let end = if end > self.time { end } else { self.time.next_up() };
+        self.end = end.max(self.goal).min(f64::MAX);
     }
 }
 
@@ -291,13 +293,10 @@ impl<D: Detector> EventDriven<D> {
             self.predict(model, &changed);
             return Ok(Turn::Event);
         }
-        if !log.contacts.is_empty() && time > now && now > self.frame.time {
+        let shows = !log.contacts.is_empty() && time > now && now > self.frame.time;
+        if shows || time > self.frame.end {
             schedule.put_back((time, slot));
-            return Ok(self.close_frame(model, log, now));
-        }
-        if time > self.frame.end {
-            schedule.put_back((time, slot));
-            return Ok(self.close_frame(model, log, self.frame.end));
+            return Ok(self.close_frame(model, log, if shows { now } else { self.frame.end }));
         }
         impacts.instant.advance_clock(trajectories, time)?;
         schedule.prefetch(trajectories);

@@ -18,6 +18,8 @@ use crate::roots::quadratic_fall;
 
 impl Trajectories {
     /// Has a sphere go on with what it has just done as often before.
+    #[cold]
+    #[inline(never)]
     fn hop_on(&mut self, i: usize, repeated: Repeated) {
         let slot = self.slot(i);
         self.records[slot].trajectory = repeated.hull();
@@ -64,14 +66,20 @@ impl Mechanics {
 
     /// The orbit of a sphere that has just struck a face, if it has gone round often enough.
     fn orbit(&mut self, model: &Model, contact: &ContactState, since: f64) -> Option<Orbit> {
-        let (_, i, wall) = contact.key;
-        let (line, a, now) =
-            (*self.trajectories.trajectory(i), self.trajectories.acceleration(i), self.trajectories.now);
-        let speed = line.v.dot(contact.normal);
-        let low = speed * (now - since) <= 4.0 * TOUCHED_GAP * contact.reach;
+        let speed = self.trajectories.trajectory(contact.key.1).v.dot(contact.normal);
+        let low = speed * (self.trajectories.now - since) <= 4.0 * TOUCHED_GAP * contact.reach;
         if !low || speed <= model.law.rest_speed {
             return None;
         }
+        self.low_orbit(model, contact, since)
+    }
+
+    /// The same after a low flight. Out of the way of all others.
+    #[cold]
+    #[inline(never)]
+    fn low_orbit(&mut self, model: &Model, contact: &ContactState, since: f64) -> Option<Orbit> {
+        let (_, i, wall) = contact.key;
+        let (line, a) = (*self.trajectories.trajectory(i), self.trajectories.acceleration(i));
         let (leg, clock_ulp) = (Leg { wall, normal: contact.normal, line }, self.trajectories.clock_ulp());
         let motion = (a, model.law.tangential);
         let mut orbit = self.trajectories.hopping.orbit(i, (leg, since), motion, clock_ulp)?;
@@ -84,10 +92,15 @@ impl Mechanics {
 
     /// Before a contact: puts those of its spheres that hop to where they are now, and tells the hops that are over. Whether
     /// there were any, so that the contact must be predicted anew.
+    #[inline(always)]
     pub(super) fn leave_hops(&mut self, model: &Model, log: &mut Log, key: Key) -> bool {
-        if self.trajectories.hopping.is_empty() {
-            return false;
-        }
+        !self.trajectories.hopping.is_empty() && self.end_hops(model, log, key)
+    }
+
+    /// The same where something hops. Out of the way of what does not.
+    #[cold]
+    #[inline(never)]
+    fn end_hops(&mut self, model: &Model, log: &mut Log, key: Key) -> bool {
         let now = self.trajectories.now;
         let mut left = false;
         for &i in Changed::of(key).spheres() {

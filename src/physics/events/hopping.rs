@@ -220,6 +220,7 @@ impl Hopping {
 
     /// Counts an impact on a wall at `now` (s) of a sphere that has moved as it did since `since` (s); whether it has come
     /// back from the same wall often enough.
+    #[inline(never)]
     pub(super) fn is_row(&mut self, (i, wall): (usize, usize), since: f64, now: f64) -> bool {
         let row = self.rows.entry(i).or_insert(Row { wall, last: since, count: 0, enough: FIRST });
         let again = row.wall == wall && row.last == since;

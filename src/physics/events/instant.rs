@@ -69,6 +69,7 @@ impl Instant {
     }
 
     /// Whether a contact that is about to collide once more at this instant has collapsed.
+    #[inline(never)]
     pub(super) fn collapses(&mut self, model: &Model, trajectories: &Trajectories, contact: &ContactState) -> bool {
         let ((kind, a, b), approach_speed) = (contact.key, -contact.v_n);
         let faint = approach_speed * approach_speed < f64::MIN_POSITIVE;

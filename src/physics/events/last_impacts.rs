@@ -11,44 +11,29 @@ const MOST_IMPACTS: usize = 12;
 /// Impacts before one among which its contact is looked for.
 const LOOKED_BACK: usize = 32;
 
-/// Classes of contacts that are counted among those, so that one of a class that is not there is not looked for.
-const CLASSES: usize = 512;
-
 /// Impacts in a row, each of a contact that was among the last few, from which on bodies are sent to and fro at one place.
-const TO_AND_FRO: u32 = 8;
+const TO_AND_FRO: usize = 8;
 
 /// The last impacts of a run, up to [`COMPARED`] of them.
 #[derive(Debug, Clone)]
 pub(super) struct LastImpacts {
     /// Their contacts in one word each, the one that came k-th at place k modulo their number.
     words: [u64; COMPARED],
-    /// The last few once more, in half a word each, so that they are compared all at once.
-    recent: [u32; LOOKED_BACK],
-    /// How many of the last few are of each class.
-    classes: [u8; CLASSES],
     /// Number of impacts so far.
     total: usize,
     /// Number of impacts before those that are compared next.
     before: usize,
     /// Time of the first of those, s.
     began: f64,
-    /// How many of the last impacts in a row were of a contact that was among the few before.
-    again: u32,
+    /// Number of impacts up to the last one that is known to be of a contact that was not among the few before.
+    new: usize,
+    /// Number of impacts of which it is known whether they are like that.
+    looked_at: usize,
 }
 
 impl Default for LastImpacts {
     fn default() -> LastImpacts {
-        let mut classes = [0; CLASSES];
-        classes[class(u32::MAX)] = LOOKED_BACK as u8;
-        LastImpacts {
-            words: [u64::MAX; COMPARED],
-            recent: [u32::MAX; LOOKED_BACK],
-            classes,
-            total: 0,
-            before: 0,
-            began: 0.0,
-            again: 0,
-        }
+        LastImpacts { words: [u64::MAX; COMPARED], total: 0, before: 0, began: 0.0, new: 0, looked_at: 0 }
     }
 }
 
@@ -59,25 +44,30 @@ impl LastImpacts {
         if self.total == self.before {
             self.began = now;
         }
-        let word = word(key);
-        let short = short(word);
-        let place = self.total % LOOKED_BACK;
-        let again = self.classes[class(short)] > 0 && self.is_among_recent(short);
-        self.again = if again { self.again.saturating_add(1) } else { 0 };
-        self.words[self.total % COMPARED] = word;
-        self.classes[class(self.recent[place])] -= 1;
-        self.classes[class(short)] += 1;
-        self.recent[place] = short;
+        self.words[self.total % COMPARED] = word(key);
         self.total = self.total.wrapping_add(1);
+        // a row of so many takes so many after a new one: one look for so many impacts of a gas
+        if self.go_to_and_fro() {
+            self.look_back();
+        }
     }
 
-    /// Whether a contact is among the last few; of the same contact twice in a row, which is no way to and fro, the second
-    /// does not count.
-    fn is_among_recent(&self, short: u32) -> bool {
-        let last = self.recent[self.total.wrapping_sub(1) % LOOKED_BACK];
-        // without a branch for each
-        let found = self.recent.iter().fold(0, |found, &other| found + u32::from(other == short));
-        found > u32::from(last == short)
+    /// Looks which impacts since the last look were of a contact that was among the few before, the last one first.
+    #[inline(never)]
+    fn look_back(&mut self) {
+        let unknown = self.total.wrapping_sub(self.looked_at);
+        let new = (1..=unknown).map(|back| self.total.wrapping_sub(back)).find(|&impact| !self.is_again(impact));
+        if let Some(impact) = new {
+            self.new = impact.wrapping_add(1);
+        }
+        self.looked_at = self.total;
+    }
+
+    /// Whether the contact of an impact, by its number, was among the few before; of the same contact twice in a row, which
+    /// is no way to and fro, the second does not count.
+    fn is_again(&self, impact: usize) -> bool {
+        let word = |impact: usize| self.words[impact % COMPARED];
+        (2..=LOOKED_BACK).any(|back| word(impact.wrapping_sub(back)) == word(impact))
     }
 
     /// Whether there are enough to be compared.
@@ -89,7 +79,7 @@ impl LastImpacts {
     /// Whether bodies are sent to and fro at one place.
     #[inline(always)]
     pub(super) fn go_to_and_fro(&self) -> bool {
-        self.again >= TO_AND_FRO
+        self.total.wrapping_sub(self.new) >= TO_AND_FRO
     }
 
     /// The impacts of the round that these repeat, in the order in which they come next, and when the first of these was,
@@ -108,18 +98,6 @@ impl LastImpacts {
 #[inline(always)]
 fn word((kind, a, b): Key) -> u64 {
     u64::from(kind == Kind::Pair) << 63 | (a as u64) << 32 | b as u64
-}
-
-/// Half a word, which two contacts share once in billions.
-#[inline(always)]
-fn short(word: u64) -> u32 {
-    (word >> 32).wrapping_mul(0x9e37_79b1) as u32 ^ word as u32
-}
-
-/// The class of a contact, by half a word.
-#[inline(always)]
-fn class(short: u32) -> usize {
-    short as usize % CLASSES
 }
 
 /// The contact of a word.

@@ -90,6 +90,7 @@ impl Mechanics {
 
     /// Whether an impact on a wall would lift the sphere off another one that it rests on, nearly level with this one, by
     /// no more than counts as closed there: that rest would take the impulse back, and the same impact would come again.
+    #[inline(never)]
     fn is_held_down(&self, model: &Model, contact: &ContactState) -> bool {
         let (kind, i, wall) = contact.key;
         if kind == Kind::Pair || self.rests.count(i) == 0 {
@@ -113,6 +114,7 @@ impl Mechanics {
     /// Whether small bounces that the wall itself does not damp, millions a second, are as good as rest: without friction
     /// they slide like what rests, and beside another wall that the sphere touches, the friction there is their end. Not
     /// where nothing at all is lost.
+    #[inline(never)]
     fn bounces_undamped(&self, model: &Model, (kind, a, b): Key) -> bool {
         let (law, line) = (&model.law, self.trajectories.trajectory(a));
         let beside = |wall: usize| touch(&model.faces[wall], line.x, line.r).gap <= SUMMED_HOP * line.r;

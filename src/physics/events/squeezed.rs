@@ -23,15 +23,22 @@ const DOUBTFUL: u64 = 4;
 impl Mechanics {
     /// Whether a contact can never be left: then all contacts that hold the sphere so rest from now on. The bodies have
     /// moved as they do now since `since`, s.
+    #[inline]
     pub(super) fn is_squeezed(&mut self, model: &Model, contact: &ContactState, since: f64) -> bool {
         let events = self.impacts.instant.events;
-        let (kind, i, _) = contact.key;
         let again = events >= DOUBTFUL && events.is_power_of_two();
         // across a gap that coordinates hardly tell from none the clock may go on all the same
         let to_and_fro = || -contact.v_n * (self.trajectories.now - since) <= touching(contact.reach, contact.size());
-        if kind == Kind::Pair || !again && !to_and_fro() {
+        if contact.key.0 == Kind::Pair || !again && !to_and_fro() {
             return false;
         }
+        self.squeezes(model, contact)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn squeezes(&mut self, model: &Model, contact: &ContactState) -> bool {
+        let i = contact.key.1;
         let record = &self.trajectories.records[self.trajectories.slot(i)];
         let keys = walls_touched(model, &self.trajectories, record, 0..model.faces.len());
         let squeezing = squeezing(model, &self.trajectories, &keys);

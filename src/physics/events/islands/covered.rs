@@ -47,12 +47,21 @@ pub(crate) fn leave_out_covered(model: &Model, (x, r): (DVec3, f64), walls: &mut
 impl Mechanics {
     /// Handles a contact with an edge or a corner that a face covers: the face is struck in its place, or carries the sphere.
     /// Returns the spheres whose motion that has changed; none if nothing covers it.
+    #[inline]
     pub(crate) fn meet_covered(&mut self, model: &Model, log: &mut Log, key: Key) -> Option<Result<Changed, Stall>> {
         let (kind, i, wall) = key;
-        let x = self.trajectories.path(i, self.trajectories.now).x;
-        if kind == Kind::Pair || model.faces[wall].shades(x) {
+        if kind == Kind::Pair || model.faces[wall].shades(self.trajectories.path(i, self.trajectories.now).x) {
             return None;
         }
+        self.meet_border(model, log, key)
+    }
+
+    /// The same for a contact with a wall beside its face. Out of the way of those with the face.
+    #[cold]
+    #[inline(never)]
+    fn meet_border(&mut self, model: &Model, log: &mut Log, key: Key) -> Option<Result<Changed, Stall>> {
+        let (_, i, wall) = key;
+        let x = self.trajectories.path(i, self.trajectories.now).x;
         let at = touch(&model.faces[wall], x, model.radii[i]);
         let other = (0..model.faces.len()).find(|&other| other != wall && covers(&model.faces[other], &at, x))?;
         let face = (Kind::Wall, i, other);

@@ -76,10 +76,15 @@ impl Mechanics {
 
     /// Has bounces of a sphere on a wall that were summed up told one by one from now on where something else strikes it:
     /// the sphere gets the velocity that they have left it, and not their mean one. Whether there were any.
+    #[inline]
     pub(crate) fn interrupt_series(&mut self, model: &Model, log: &mut Log, struck: Key) -> bool {
-        if self.rests.is_empty() || model.law.tangential == 1.0 {
-            return false; // only bounces that rub are summed up so
-        }
+        // only bounces that rub are summed up so
+        !self.rests.is_empty() && model.law.tangential != 1.0 && self.interrupt_rubbing(model, log, struck)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn interrupt_rubbing(&mut self, model: &Model, log: &mut Log, struck: Key) -> bool {
         let mut interrupted = false;
         for &i in Changed::of(struck).spheres() {
             for key in self.rests.of(i).to_vec().into_iter().filter(|&key| key != struck) {

@@ -107,8 +107,14 @@ impl<D: Detector> Schedule<D> {
     #[inline(always)]
     fn enter_tie(&mut self, trajectories: &Trajectories, rests: &Rests, time: f64, slot: usize) {
         if self.ties.are_at(time) {
-            self.ties.enter(slot, event_order(trajectories, rests, time, slot));
+            self.enter_among_ties(trajectories, rests, time, slot);
         }
+    }
+
+    // out of the way: the loop is short
+    #[inline(never)]
+    fn enter_among_ties(&mut self, trajectories: &Trajectories, rests: &Rests, time: f64, slot: usize) {
+        self.ties.enter(slot, event_order(trajectories, rests, time, slot));
     }
 }
 
@@ -122,9 +128,15 @@ impl<'a, D: Detector> Search<'a, D> {
         (detector, simd): (&'a D, Simd),
         (slot, done): (usize, &'a [usize]),
     ) -> Search<'a, D> {
-        let until = rests.end_of(trajectories.sphere(slot)).next_up();
         let path = trajectories.path_from(slot);
-        let way = if until < f64::INFINITY { path.way_until(until - trajectories.now) } else { f64::INFINITY };
+        // where nothing rests no parabola ends
+        let (mut until, mut way) = (f64::INFINITY, f64::INFINITY);
+        if !rests.is_empty() {
+            until = rests.end_of(trajectories.sphere(slot)).next_up();
+            if until < f64::INFINITY {
+                way = path.way_until(until - trajectories.now);
+            }
+        }
         Search { model, trajectories, rests, detector, simd, slot, done, path, until, way }
     }
 

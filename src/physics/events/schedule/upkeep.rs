@@ -28,6 +28,8 @@ const CELLS: &str = "a sphere is taken out of cells only where there are some";
 
 impl<D: Detector> Schedule<D> {
     /// Asks whether the cells still fit, changes them if they do not, and reorders the records after many crossings.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn review(&mut self, model: &Model, trajectories: &mut Trajectories, rests: &Rests) {
         self.wear.pairs = 0;
         let Some(cells) = &self.cells else { return };
