@@ -38,8 +38,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use judged::{EXACT, Failure, Generator, Met, SWEPT};
 use mended::{
-    LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_HEAPS, MENDED_JOINTS, MENDED_STACKS, MENDED_TUBES,
-    MENDED_UNITS, SWEPT_FUNNELS, SWEPT_JOINTS, SWEPT_STACKS,
+    LABORIOUS, MENDED, MENDED_CROWDS, MENDED_FUNNELS, MENDED_HEAPS, MENDED_JOINTS, MENDED_SEAMS, MENDED_STACKS,
+    MENDED_TUBES, MENDED_UNITS, SWEPT_FUNNELS, SWEPT_JOINTS, SWEPT_STACKS,
 };
 
 /// Ten seconds, and twenty million turns, some twenty seconds of work.
@@ -156,6 +156,7 @@ fn small_scenes_that_ever_failed_or_went_on_for_ever_stay_mended() {
         (&MENDED_TUBES, &TUBES),
         (&MENDED_STACKS, &STACKS),
         (&MENDED_JOINTS, &JOINTS),
+        (&MENDED_SEAMS, &SEAMS),
         (&MENDED_CROWDS, &CROWDS),
         (&MENDED_HEAPS, &HEAPS),
     ];

@@ -69,21 +69,31 @@ impl Board {
 
     /// The way from the closest point of the wall to `p` (m), m.
     pub(super) fn offset(&self, p: DVec3) -> DVec3 {
-        if self.shares(p).iter().all(|share| (0.0..=1.0).contains(share)) {
+        let [first, second] = self.shares(p);
+        let inside = |share: f64| (0.0..=1.0).contains(&share);
+        if inside(first) && inside(second) {
             // no edge is nearer; one beside the foot is as far, to rounding, from up to 1e-8 of the distance aside
             return (0..2)
                 .fold(self.arm(p), |offset, _| self.basis.iter().fold(offset, |rest, e| rest - *e * e.dot(rest)));
         }
         let mut nearest = DVec3::INFINITY;
-        let mut propose = |offset: DVec3| {
+        let edges = [
+            (DVec3::ZERO, self.s1, second < 0.0),
+            (DVec3::ZERO, self.s2, first < 0.0),
+            (self.s2, self.s1, second > 1.0),
+            (self.s1, self.s2, first > 1.0),
+        ];
+        for (from, along, is_beyond) in edges {
+            let arm = self.arm(p) - from;
+            let share = arm.dot(along) / along.dot(along);
+            let offset = arm - along * share.clamp(0.0, 1.0);
+            if is_beyond && inside(share) {
+                // no corner is nearer; one beside the foot is as far, to rounding, from up to 1e-8 of the distance aside
+                return offset;
+            }
             if offset.length_squared() < nearest.length_squared() {
                 nearest = offset;
             }
-        };
-        for (from, along) in [(DVec3::ZERO, self.s1), (DVec3::ZERO, self.s2), (self.s2, self.s1), (self.s1, self.s2)] {
-            let arm = self.arm(p) - from;
-            let share = (arm.dot(along) / along.dot(along)).clamp(0.0, 1.0);
-            propose(arm - along * share);
         }
         nearest
     }
@@ -108,6 +118,23 @@ mod tests {
             let foot = board.corner + board.s1 * along + board.s2 * inside;
             let offset = board.offset(foot + board.normal * 0.3);
             assert!((offset - board.normal * 0.3).length() < 1e-14, "{along} {inside}: {offset}");
+        }
+    }
+
+    /// The point of an edge is told from a corner beside it, and from that of the other edge there, where their distances
+    /// differ by less than rounding.
+    #[test]
+    fn beside_a_corner_the_foot_on_the_edge_beyond_which_it_is_counts() {
+        for s2 in [dvec3(0.0, 0.0, 1.0), dvec3(1.5, 0.0, 1.0), dvec3(-1.5, 0.0, 1.0)] {
+            let board = Board::new(dvec3(0.0, 0.0, 0.0), dvec3(2.0, 0.0, 0.0), s2);
+            for (inside, beyond) in [(2.7e-9, 1e-9), (1e-12, 4e-9), (4e-9, 1e-12), (1e-9, 0.2)] {
+                let away = dvec3(0.0, 0.4, -beyond);
+                for foot in [board.corner + dvec3(inside, 0.0, 0.0), board.corner + board.s1 - dvec3(inside, 0.0, 0.0)]
+                {
+                    let offset = board.offset(foot + away);
+                    assert!((offset - away).length() < 1e-15, "{s2} {inside} {beyond}: {offset}");
+                }
+            }
         }
     }
 

@@ -106,23 +106,27 @@ pub fn touch(face: &Face, x: DVec3, r: f64) -> Touch {
     if face.shades(x) { touch_face(face, x, r) } else { touch_outline(face, x, r) }
 }
 
-/// The closest point of a wall's edges and corners. A corner counts only where the feet on both its edges are outside them:
-/// within 1e-8 of it, relative to the distance, rounding would not tell it from a foot beside it.
+/// The closest point of a wall's edges and corners. A corner counts only where the feet on both its edges are outside them,
+/// and an edge where the centre is beyond it: within 1e-8 of a corner, relative to the distance, rounding would not tell it
+/// from a foot beside it, nor the feet on its two edges from each other.
 fn touch_outline(face: &Face, x: DVec3, r: f64) -> Touch {
     let corners = face.shape.corners();
     let shares = [0, 1, 2, 3].map(|k: usize| share_along(x, corners[k], corners[(k + 1) % 4]));
-    let (mut closest, mut least) = ((Part::Corner(0), corners[0]), f64::INFINITY);
+    let q = x - face.shape.center;
+    let (one, two) = (q.dot(face.dual1), q.dot(face.dual2));
+    let beyond = [two < -0.5, one > 0.5, two > 0.5, one < -0.5];
+    let (mut closest, mut least) = ((Part::Corner(0), corners[0]), (true, f64::INFINITY));
     for (k, (&corner, &share)) in corners.iter().zip(&shares).enumerate() {
-        let candidate = if share > 0.0 && share < 1.0 {
-            (Part::Edge(k as u8), corner + (corners[(k + 1) % 4] - corner) * share)
+        let (candidate, behind) = if share > 0.0 && share < 1.0 {
+            ((Part::Edge(k as u8), corner + (corners[(k + 1) % 4] - corner) * share), !beyond[k])
         } else if share <= 0.0 && shares[(k + 3) % 4] >= 1.0 {
-            (Part::Corner(k as u8), corner)
+            ((Part::Corner(k as u8), corner), false)
         } else {
             continue;
         };
         let squared = (x - candidate.1).length_squared();
-        if squared < least {
-            (closest, least) = (candidate, squared);
+        if (behind, squared) < least {
+            (closest, least) = (candidate, (behind, squared));
         }
     }
     touch_point(closest, x, r)

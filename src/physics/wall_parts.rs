@@ -176,6 +176,18 @@ mod tests {
     }
 
     #[test]
+    fn beside_a_sharp_corner_the_edge_beyond_which_the_centre_is_counts() {
+        // the foot on the other edge is as far to rounding, and some 1e-9 m off
+        let sharp = Parallelogram { center: DVec3::ZERO, s1: DVec3::X * 2.0, s2: DVec3::new(1.5, 0.0, 1.0) };
+        let corner = sharp.corners()[0];
+        for (along, beyond) in [(2e-9, 1e-9), (4e-9, 1e-12), (1e-9, 3e-9)] {
+            let at = touch(&Face::new(sharp), corner + DVec3::new(along, 0.3, -beyond), 0.3);
+            assert_eq!(at.part, Part::Edge(0), "{along} {beyond}");
+            assert!((at.point - corner).distance(DVec3::X * along) < 1e-15, "{along} {beyond}: {at:?}");
+        }
+    }
+
+    #[test]
     fn a_wall_is_said_to_be_farther_only_where_it_is() {
         let face = skewed();
         let mut said = 0;

@@ -1,7 +1,8 @@
 //! Next to a seam, where the closest points of two walls nearly coincide, each scene with its closed form.
 
 use crate::support::{G, go, scene, sphere, wall};
-use carom::physics::{Kind, Method, RestReason, Scene, Settings, Simulation, State};
+use carom::audit::Judge;
+use carom::physics::{Kind, Method, Progress, RestReason, Scene, Settings, Simulation, State, Until};
 use carom::scene::{ContactLaw, Wall};
 use glam::{DVec3, dvec3};
 
@@ -100,5 +101,61 @@ fn only_the_face_is_told_to_carry_and_not_the_edge_beside_it() {
         assert_eq!(reasons, [None, Some(RestReason::Touching)], "{:?}", settings.method);
         let told: Vec<usize> = run.contacts().iter().map(|row| row.b).collect();
         assert_eq!(told, [1], "{:?}", settings.method);
+    }
+}
+
+#[test]
+fn bounces_out_of_an_overlap_that_swept_allows_gain_nothing_at_an_edge() {
+    let settings = Settings { method: Method::Swept, dt: 0.5, tolerance: 1e-3 };
+    for walls in [vec![tile(-2.0)], vec![tile(-2.0), slope()], vec![tile(-2.0), tile(0.0)]] {
+        for (e, tangential) in [(0.3, 0.99), (0.4, 0.99), (0.5, 0.9), (0.5, 0.5)] {
+            for v in [0.3, 1.0, 3.0] {
+                let law = ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.0 };
+                // it comes to the edge after its first impact, while the bounces that follow are summed up
+                for k in 1..=20 {
+                    let (height, way) = (1e-3, v * 1.5e-3 * f64::from(k));
+                    let mut run = Simulation::new(&begin(&walls, law, [-way, 1.0 + height], v), settings);
+                    let mut judge = Judge::of(&run);
+                    run.record_events(true);
+                    while run.time() < 0.2 && run.advance(Until::Frame, 1_000_000) == Progress::Reached {
+                        let events = run.take_events();
+                        judge.frame(&run, &events);
+                    }
+                    assert!(run.time() >= 0.2, "e {e}, {tangential}, {v} m/s, {way} m before the edge: {}", run.time());
+                    let findings = judge.findings().rows();
+                    assert!(
+                        findings.is_empty(),
+                        "e {e}, {tangential}, {v} m/s, {way} m before the edge: {}",
+                        findings[0]
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// An inelastic ball of r = 1 m strikes the edge of a step of h at v, keeps what goes on round the edge, v (1 − h/r), slides
+/// up it without loss, and goes on with what the height has left it.
+#[test]
+fn a_ball_climbs_a_step_however_low_and_stops_before_one_that_is_too_high() {
+    for h in [1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6] {
+        let step = wall(dvec3(1.0, h, 0.0), DVec3::X * 2.0, DVec3::NEG_Z * 4.0);
+        for v in [1e-5, 1e-4, 1e-3, 1e-2, 1.0] {
+            let (before, climb) = (f64::sqrt(2.0 * h), 2.0 * -G.y * h);
+            let kept = (v * (1.0 - h)).powi(2) - climb;
+            // near the top it would be slow
+            if kept.abs() < 0.5 * climb {
+                continue;
+            }
+            let t = 0.1 + 5.0 * before / v;
+            let state = ball_at(&[tile(-2.0), step.clone()], DEAD, [-0.05 * v - before, 1.0], v, (METHODS[0], t));
+            let (x, u) = (state.x[0], state.v[0]);
+            if kept > 0.0 {
+                assert!((u.x - kept.sqrt()).abs() <= 1e-6 * v, "{h} m at {v} m/s: {u}, not {}", kept.sqrt());
+                assert!((x.y - 1.0 - h).abs() <= 1e-12, "{h} m at {v} m/s: {x}");
+            } else {
+                assert!(x.x <= 0.0 && x.y >= 1.0 - 1e-12, "{h} m at {v} m/s: {x}");
+            }
+        }
     }
 }

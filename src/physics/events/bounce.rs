@@ -16,7 +16,15 @@ use crate::physics::impact_law::along;
 use crate::physics::model::Model;
 use crate::physics::overlap::touching;
 use crate::physics::path::Path;
-use crate::physics::wall::{Part, touch};
+use crate::physics::wall::{Face, Part, touch};
+
+/// Velocity of a sphere without its part along the edge of a wall that is closest to it, m/s.
+fn across(face: &Face, line: &Trajectory) -> DVec3 {
+    let Part::Edge(k) = touch(face, line.x, line.r).part else { return line.v };
+    let corners = face.shape.corners();
+    let side = (corners[(k as usize + 1) % 4] - corners[k as usize]).normalize();
+    line.v - side * side.dot(line.v)
+}
 
 impl ContactState {
     /// How long the bounces of a contact still last, s, whose next would go [`SUMMED_HOP`](super::rounding::SUMMED_HOP)
@@ -77,14 +85,19 @@ impl Trajectories {
     /// Whether a sphere moves along a wall and approaches it by no more than rounding of its speed; of its place too, which
     /// turns the normal of what has struck it, if it has moved so only since `since` (s) and has not left its place. If an
     /// impact `rubs`, it takes a share of the speed however slow the approach: that must not hang on the last bit of a place.
-    pub(super) fn grazes(&self, contact: &ContactState, since: f64, rubs: bool) -> bool {
-        let (kind, a, _) = contact.key;
-        let (speed, size) = (self.trajectory(a).v.length(), contact.size());
+    pub(super) fn grazes(&self, model: &Model, contact: &ContactState, since: f64, rubs: bool) -> bool {
+        let (kind, a, b) = contact.key;
+        let (line, size) = (self.trajectory(a), contact.size());
+        let speed = line.v.length();
         let struck_here = speed * (self.now - since) <= touching(contact.reach, size);
         let turned = if struck_here { HOP * size / contact.reach } else { 0.0 };
+        if kind == Kind::Pair {
+            return false;
+        }
         // an edge or a corner that it would pass with an overlap of no more than coordinates can tell may as well be missed
-        let turned = if rubs && !contact.flat { (2.0 * HOP * size / contact.reach).sqrt() } else { turned };
-        kind == Kind::Wall && contact.v_n >= -(BRUSH + turned) * speed
+        let missed = || (2.0 * HOP * size / contact.reach).sqrt() * across(&model.faces[b], line).length();
+        let missed = if rubs && !contact.flat { missed() } else { 0.0 };
+        contact.v_n >= -(BRUSH + turned) * speed - missed
     }
 
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.

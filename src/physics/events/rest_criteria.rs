@@ -38,7 +38,7 @@ impl Mechanics {
         }
         // what rests on something else would be lifted off it, unseen
         let rubs = model.law.tangential < 1.0 && self.rests.count(contact.key.1) == 0;
-        if contact.a_n >= 0.0 && self.trajectories.grazes(contact, since, rubs) {
+        if contact.a_n >= 0.0 && self.trajectories.grazes(model, contact, since, rubs) {
             // an impact would take nothing along the normal, and of a wall that rubs a share of what slides along it; what the
             // wall opposite sends back at this instant again and again is held by both
             let held = self.impacts.instant.is_stuck(contact.key);

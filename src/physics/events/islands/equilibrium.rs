@@ -295,11 +295,16 @@ impl Settled {
         let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body].max(cleared);
         let every = Short::from_elem(0.0, resting.len());
         let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
-        let opened = |index: usize| holds[index] && self.fate[index] == Fate::Opening && resting[index].b.is_none();
-        if (0..holds.len()).any(opened) && v.iter().enumerate().any(costs) {
+        let wall_opens = |index: usize| self.fate[index] == Fate::Opening && resting[index].b.is_none();
+        let mut dear = false;
+        if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
             (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
+            // the edge of a step that has just been struck is no rounding: what lifts the body off the floor before it does so
+            let noise = |index: usize| SUM * before[resting[index].a].length();
+            let driven = |index: usize| v_n(index, &v) < -noise(index) && v_n(index, &before) >= -noise(index);
+            dear = (0..holds.len()).any(|index| !holds[index] && wall_opens(index) && driven(index));
         }
-        let dear = v.iter().enumerate().any(costs);
+        let dear = dear || v.iter().enumerate().any(costs);
         let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
         let meets = |index: usize, other: usize| {
             has(other, resting[index].a) || resting[index].b.is_some_and(|body| has(other, body))
