@@ -90,7 +90,7 @@ impl Chatter {
             && self.is_endless_row(model, bodies, contact, since)
     }
 
-    /// The same where something pulls and something is lost. Out of the way of a gas.
+    /// Whether an impact is one of an endless row, where something pulls and something is lost. Out of the way of a gas.
     #[inline(never)]
     fn is_endless_row(
         &mut self,

@@ -74,7 +74,7 @@ impl Mechanics {
         self.low_orbit(model, contact, since)
     }
 
-    /// The same after a low flight. Out of the way of all others.
+    /// The orbit of a sphere after a low flight on it. Out of the way of all others.
     #[cold]
     #[inline(never)]
     fn low_orbit(&mut self, model: &Model, contact: &ContactState, since: f64) -> Option<Orbit> {
@@ -97,7 +97,7 @@ impl Mechanics {
         !self.trajectories.hopping.is_empty() && self.end_hops(model, log, key)
     }
 
-    /// The same where something hops. Out of the way of what does not.
+    /// Ends the hops of the spheres of a contact; whether there were any. Out of the way of scenes in which nothing hops.
     #[cold]
     #[inline(never)]
     fn end_hops(&mut self, model: &Model, log: &mut Log, key: Key) -> bool {

@@ -56,7 +56,7 @@ impl Mechanics {
         self.meet_border(model, log, key)
     }
 
-    /// The same for a contact with a wall beside its face. Out of the way of those with the face.
+    /// Handles a contact with a wall beside its face, if another face covers it. Out of the way of contacts with the face.
     #[cold]
     #[inline(never)]
     fn meet_border(&mut self, model: &Model, log: &mut Log, key: Key) -> Option<Result<Changed, Stall>> {
@@ -179,7 +179,8 @@ impl Mechanics {
             let at = touch_part(&model.faces[key.2], part, x, model.radii[key.1]);
             let carries = |other: &Key| {
                 let is_face = other.0 == Kind::Wall && self.rests.kept(*other).part == Part::Face;
-                is_face && contains(&model.faces[other.2], &at)
+                // it may be over its own face by now
+                is_face && !self.is_covered(*other) && contains(&model.faces[other.2], &at)
             };
             if !self.rests.of[key.1].iter().any(carries) {
                 self.release(model, log, key);
