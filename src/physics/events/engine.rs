@@ -303,7 +303,7 @@ impl<D: Detector> EventDriven<D> {
         match kind {
             EventKind::Contact => self.contact(model, log, slot)?,
             EventKind::IslandEnd => {
-                let changed = mechanics.end_parabola(model, mechanics.trajectories.sphere(slot));
+                let changed = mechanics.end_parabola(model, log, mechanics.trajectories.sphere(slot));
                 self.predict(model, &changed);
             }
             EventKind::Crossing => schedule.cross(model, trajectories, rests, slot),
