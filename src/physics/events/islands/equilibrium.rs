@@ -299,10 +299,7 @@ impl Settled {
         let mut dear = false;
         if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
             (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
-            // the edge of a step that has just been struck is no rounding: what lifts the body off the floor before it does so
-            let noise = |index: usize| SUM * before[resting[index].a].length();
-            let driven = |index: usize| v_n(index, &v) < -noise(index) && v_n(index, &before) >= -noise(index);
-            dear = (0..holds.len()).any(|index| !holds[index] && wall_opens(index) && driven(index));
+            dear = (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && is_driven(&resting[k], &before, &v));
         }
         let dear = dear || v.iter().enumerate().any(costs);
         let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
@@ -393,6 +390,14 @@ impl Settled {
             }
         }
     }
+}
+
+/// Whether the velocities `after` (m/s, by body) drive a body into what it did not approach with those `before`. The edge of
+/// a step that has just been struck is no rounding: what lifts the body off the floor before it does so.
+fn is_driven(contact: &Resting, before: &[DVec3], after: &[DVec3]) -> bool {
+    let noise = SUM * before[contact.a].length();
+    let v_n = |v: &[DVec3]| relative(contact, &|body| v[body]).dot(contact.normal);
+    v_n(after) < -noise && v_n(before) >= -noise
 }
 
 /// The part of a relative vector that turns the normal of a contact.

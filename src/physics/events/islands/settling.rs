@@ -254,15 +254,7 @@ impl Mechanics {
             self.begin_motion(model, keys, members, (settled.a, settled.forces, settled.curved), stuck);
             return Ok(None);
         }
-        let mut interrupted = false;
-        for &key in &opening {
-            if self.interrupt_bounces(model, log, key) {
-                interrupted = true;
-            } else {
-                self.release(model, log, key);
-            }
-            self.ensure_separating(model, key, 0.0);
-        }
+        let interrupted = self.open(model, log, &opening);
         let stays = |index: &usize| opening.binary_search(&keys[*index]).is_err();
         let (kept, gone): (Short<usize>, Short<usize>) = (0..keys.len()).partition(stays);
         let left: Short<Key> = kept.iter().map(|&index| keys[index]).collect();
@@ -282,6 +274,20 @@ impl Mechanics {
         let forces = kept.iter().map(|&index| settled.forces[index]).collect();
         self.begin_motion(model, &left, members, (a, forces, settled.curved), stuck);
         Ok(None)
+    }
+
+    /// Ends these rests, which open; whether bounces of one were summed up, which are told one by one from now on.
+    fn open(&mut self, model: &Model, log: &mut Log, opening: &[Key]) -> bool {
+        let mut interrupted = false;
+        for &key in opening {
+            if self.interrupt_bounces(model, log, key) {
+                interrupted = true;
+            } else {
+                self.release(model, log, key);
+            }
+            self.ensure_separating(model, key, 0.0);
+        }
+        interrupted
     }
 
     /// Gives spheres what their island has been solved to, and writes what its contacts do.
