@@ -106,28 +106,25 @@ fn only_the_face_is_told_to_carry_and_not_the_edge_beside_it() {
 
 #[test]
 fn bounces_out_of_an_overlap_that_swept_allows_gain_nothing_at_an_edge() {
-    let settings = Settings { method: Method::Swept, dt: 0.5, tolerance: 1e-3 };
+    // several frames end while the bounces are summed up: the energy of each is seen
+    let settings = Settings { method: Method::Swept, dt: 0.01, tolerance: 1e-3 };
     for walls in [vec![tile(-2.0)], vec![tile(-2.0), slope()], vec![tile(-2.0), tile(0.0)]] {
         for (e, tangential) in [(0.3, 0.99), (0.4, 0.99), (0.5, 0.9), (0.5, 0.5)] {
-            for v in [0.3, 1.0, 3.0] {
-                let law = ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.0 };
+            let law = ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.0 };
+            for (v, height) in [(1.0, 1.5e-4), (3.0, 1.5e-4), (1.0, 3e-4), (3.0, 3e-4)] {
                 // it comes to the edge after its first impact, while the bounces that follow are summed up
-                for k in 1..=20 {
-                    let (height, way) = (1e-3, v * 1.5e-3 * f64::from(k));
+                for k in 1..=10 {
+                    let way = v * ((2.0 * height / -G.y).sqrt() + 2e-3 * f64::from(k));
                     let mut run = Simulation::new(&begin(&walls, law, [-way, 1.0 + height], v), settings);
                     let mut judge = Judge::of(&run);
                     run.record_events(true);
-                    while run.time() < 0.2 && run.advance(Until::Frame, 1_000_000) == Progress::Reached {
+                    while run.time() < 0.2 {
+                        assert_eq!(run.advance(Until::Frame, 1_000_000), Progress::Reached);
                         let events = run.take_events();
                         judge.frame(&run, &events);
                     }
-                    assert!(run.time() >= 0.2, "e {e}, {tangential}, {v} m/s, {way} m before the edge: {}", run.time());
-                    let findings = judge.findings().rows();
-                    assert!(
-                        findings.is_empty(),
-                        "e {e}, {tangential}, {v} m/s, {way} m before the edge: {}",
-                        findings[0]
-                    );
+                    let found = judge.findings().rows().first().map(ToString::to_string);
+                    assert_eq!(found, None, "e {e}, {tangential}, {v} m/s, {way} m before the edge");
                 }
             }
         }

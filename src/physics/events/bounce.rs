@@ -18,14 +18,6 @@ use crate::physics::overlap::touching;
 use crate::physics::path::Path;
 use crate::physics::wall::{Face, Part, touch};
 
-/// Velocity of a sphere without its part along the edge of a wall that is closest to it, m/s.
-fn across(face: &Face, line: &Trajectory) -> DVec3 {
-    let Part::Edge(k) = touch(face, line.x, line.r).part else { return line.v };
-    let corners = face.shape.corners();
-    let side = (corners[(k as usize + 1) % 4] - corners[k as usize]).normalize();
-    line.v - side * side.dot(line.v)
-}
-
 impl ContactState {
     /// How long the bounces of a contact still last, s, whose next would go [`SUMMED_HOP`](super::rounding::SUMMED_HOP)
     /// high at most: the sum of their flights, 2 |v_n| (e + e² + … + eᵏ) / g_n, up to the first |v_n| eᵏ that rests; 0
@@ -86,16 +78,16 @@ impl Trajectories {
     /// turns the normal of what has struck it, if it has moved so only since `since` (s) and has not left its place. If an
     /// impact `rubs`, it takes a share of the speed however slow the approach: that must not hang on the last bit of a place.
     pub(super) fn grazes(&self, model: &Model, contact: &ContactState, since: f64, rubs: bool) -> bool {
-        let (kind, a, b) = contact.key;
+        let (kind, a, wall) = contact.key;
+        if kind == Kind::Pair {
+            return false;
+        }
         let (line, size) = (self.trajectory(a), contact.size());
         let speed = line.v.length();
         let struck_here = speed * (self.now - since) <= touching(contact.reach, size);
         let turned = if struck_here { HOP * size / contact.reach } else { 0.0 };
-        if kind == Kind::Pair {
-            return false;
-        }
         // an edge or a corner that it would pass with an overlap of no more than coordinates can tell may as well be missed
-        let missed = || (2.0 * HOP * size / contact.reach).sqrt() * across(&model.faces[b], line).length();
+        let missed = || (2.0 * HOP * size / contact.reach).sqrt() * across(&model.faces[wall], line).length();
         let missed = if rubs && !contact.flat { missed() } else { 0.0 };
         contact.v_n >= -(BRUSH + turned) * speed - missed
     }
@@ -191,4 +183,12 @@ impl Mechanics {
         }
         self.ensure_separating(model, contact.key, 0.0);
     }
+}
+
+/// Velocity of a sphere without its part along the edge of a wall that is closest to it, m/s.
+fn across(face: &Face, line: &Trajectory) -> DVec3 {
+    let Part::Edge(k) = touch(face, line.x, line.r).part else { return line.v };
+    let corners = face.shape.corners();
+    let side = (corners[(k as usize + 1) % 4] - corners[k as usize]).normalize();
+    line.v - side * side.dot(line.v)
 }

@@ -85,21 +85,20 @@ impl Chatter {
         contact: &ContactState,
         since: f64,
     ) -> bool {
-        self.pull(model, contact.key) != 0.0
-            && model.law != LOSSLESS
-            && self.is_endless_row(model, bodies, contact, since)
+        let pull = self.pull(model, contact.key);
+        pull != 0.0 && model.law != LOSSLESS && self.is_endless_row(model, bodies, contact, (pull, since))
     }
 
-    /// Whether an impact is one of an endless row, where something pulls and something is lost. Out of the way of a gas.
+    /// Whether an impact is one of an endless row, where all weight of the scene pulls at `pull` (m/s²) and something is lost.
+    /// Out of the way of a gas.
     #[inline(never)]
     fn is_endless_row(
         &mut self,
         model: &Model,
         (trajectories, rests): (&Trajectories, &Rests),
         contact: &ContactState,
-        since: f64,
+        (pull, since): (f64, f64),
     ) -> bool {
-        let pull = self.pull(model, contact.key);
         let (now, approach_speed) = (trajectories.now, -contact.v_n);
         let since = self.rows.get(&contact.key).map_or(since, |row| row.last);
         let keeps = speed_kept(model, rests, contact.key);
