@@ -365,16 +365,34 @@ impl WallSearch<'_> {
     fn approached(&self, t: f64, at: &Touch) -> Option<f64> {
         let v = self.path.velocity(t);
         let closing = normal_velocity(v, DVec3::ZERO, at.normal);
-        if closing < 0.0 {
-            return (!self.grazes(t, at, closing)).then_some(t);
-        }
-        if closing > 1e-13 * (self.path.v.length() + v.length()) {
+        if closing < 0.0 && self.grazes(t, at, closing) || closing > 1e-13 * (self.path.v.length() + v.length()) {
             return None;
         }
-        // On a border it is the part ahead that counts: over an edge a fast sphere leaves what it was pressed against.
-        let ahead = part_ahead(self.face, self.path.at(t), v, self.path.a, self.r);
-        let bends = at.normal.dot(self.path.a) + curvature(self.face, ahead, at.normal, v, self.r);
-        (bends < 0.0).then(|| t - 2.0 * closing / bends)
+        self.closing_time(t, at, closing).map(|wait| t + wait)
+    }
+
+    /// How long after `t` (s) a touch with v_n = `closing` (m/s) has closed, s; none if it opens. What rounding of the
+    /// polynomial says to touch may be apart by more than the closest point tells, beside an edge that carries the sphere
+    /// meanwhile: pressed on this one, it would sink into that.
+    fn closing_time(&self, t: f64, at: &Touch, closing: f64) -> Option<f64> {
+        let touches = at.part == Part::Face || at.gap <= 0.0625 * self.rounding(t);
+        if touches && closing < 0.0 {
+            return Some(0.0);
+        }
+        let (gap, bends) = (if touches { 0.0 } else { at.gap }, self.bends(t, at));
+        let square = closing * closing - 2.0 * bends * gap;
+        if closing < 0.0 {
+            return (square >= 0.0).then(|| 2.0 * gap / (square.sqrt() - closing));
+        }
+        (bends < 0.0).then(|| (closing + square.sqrt()) / -bends)
+    }
+
+    /// Rate at which v_n of a touch at `t` (s) grows, m/s². On a border it is the part ahead that counts: over an edge a fast
+    /// sphere leaves what it was pressed against.
+    fn bends(&self, t: f64, at: &Touch) -> f64 {
+        let Path { v, a, .. } = *self.path;
+        let path = Path { x: self.path.at(t), v: v + a * t, a };
+        at.normal.dot(a) + curvature(self.face, part_ahead(self.face, &path, self.r), at.normal, path.v, self.r)
     }
 
     /// Whether a touch at `t` (s) that approaches at v_n = `closing` (m/s) only grazes.
@@ -390,9 +408,7 @@ impl WallSearch<'_> {
         if closing * closing > 2.0 * most * room {
             return false;
         }
-        // as in `approached`: over an edge a fast sphere leaves what it was pressed against
-        let part = part_ahead(self.face, x, v, a, self.r);
-        let bends = at.normal.dot(a) + curvature(self.face, part, at.normal, v, self.r);
+        let bends = self.bends(t, at);
         let approach =
             ClosingMotion { closing, bends, speed: v.length(), acceleration: a.length(), radius: self.r, size };
         if ahead { approach.turns_within(room) } else { approach.grazes() }

@@ -54,6 +54,18 @@ impl Sides {
         }
     }
 
+    /// The part that the point closest to `x` is farthest inside, and how far, m.
+    fn widest(&self, x: DVec3) -> (Part, f64) {
+        let mut best = (Part::Face, self.room(Part::Face, x));
+        for part in (0..4).map(Part::Edge).chain((0..4).map(Part::Corner)) {
+            let room = self.room(part, x);
+            if room > best.1 {
+                best = (part, room);
+            }
+        }
+        best
+    }
+
     /// How far the point closest to `x` is inside a part, m.
     fn room(&self, part: Part, x: DVec3) -> f64 {
         let (borders, count) = self.borders(part);
@@ -61,10 +73,11 @@ impl Sides {
     }
 }
 
-/// Whether the point closest to `x` is inside the face, by what [`room`] says of it: no other part has room then.
-fn is_inside(face: &Face, x: DVec3) -> bool {
+/// Whether the point closest to `x` is inside the face by more than `least` (m), by what [`room`] says of it: no other part
+/// has room then.
+fn is_inside(face: &Face, x: DVec3, least: f64) -> bool {
     let corners = face.shape.corners();
-    outward(face).iter().zip(corners).all(|(outward, corner)| -outward.dot(x - corner) > 0.0)
+    outward(face).iter().zip(corners).all(|(outward, corner)| -outward.dot(x - corner) > least)
 }
 
 /// The unit vectors outwards from the edges of a wall, in its plane.
@@ -98,27 +111,35 @@ pub(crate) fn part_end(face: &Face, part: Part, path: &Path, r: f64, before: f64
     borders[..count].iter().filter_map(end).filter(|&t| t < before).reduce(f64::min)
 }
 
-/// The part of a wall that is closest to a sphere of radius `r` (m) at `x` just from now on, given how it moves: on a
-/// border it is the part that the motion leads to. Decided by the borders alone: near a corner the distances to the
-/// corner and to the edge beside it differ by less than rounding.
-pub(crate) fn part_ahead(face: &Face, x: DVec3, v: DVec3, a: DVec3, r: f64) -> Part {
-    // Far enough to be clear of the rounding of x, near enough not to change anything but a border's side.
-    let ahead = 1e-9 * r;
-    let direction = if v == DVec3::ZERO { a } else { v };
-    let length = direction.length();
-    let look = if length > 0.0 { x + direction * (ahead / length) } else { x };
-    if is_inside(face, look) {
+/// The part of a wall that is closest to a sphere of radius `r` (m) just from now on, on this path: where it is within half a
+/// [`BORDER`] of a border, the part that the motion leads to. Decided by the borders alone: near a corner the distances to
+/// the corner and to the edge beside it differ by less than rounding.
+pub(crate) fn part_ahead(face: &Face, path: &Path, r: f64) -> Part {
+    let border = BORDER * path.x.abs().max_element().max(r);
+    part_within(face, path, 0.5 * border, border)
+}
+
+/// The part of a wall that a sphere of radius `r` (m) on this path comes to, which is at a border up to what is `told`, m.
+pub(crate) fn part_beyond(face: &Face, path: &Path, r: f64, told: f64) -> Part {
+    let border = BORDER * path.x.abs().max_element().max(r);
+    part_within(face, path, told.max(0.5 * border), (2.0 * told).max(border))
+}
+
+/// The part whose point is closest, if that is inside it by more than `near` (m); else the part to which `ahead` m more on
+/// the path lead: beyond the border by no more than where [`part_end`] ends the part.
+fn part_within(face: &Face, path: &Path, near: f64, ahead: f64) -> Part {
+    if is_inside(face, path.x, near) {
         return Part::Face;
     }
-    let outline = Sides::of(face);
-    let mut best = (Part::Face, outline.room(Part::Face, look));
-    for part in (0..4).map(Part::Edge).chain((0..4).map(Part::Corner)) {
-        let room = outline.room(part, look);
-        if room > best.1 {
-            best = (part, room);
-        }
+    let sides = Sides::of(face);
+    let here = sides.widest(path.x);
+    if here.1 > near {
+        return here.0;
     }
-    best.0
+    let (speed, pull) = (path.v.length(), path.a.length());
+    // |v| t + |a| t²/2 = ahead: a velocity that is nothing but rounding leads nowhere
+    let whole = speed + (speed * speed + 2.0 * pull * ahead).sqrt();
+    if whole > 0.0 { sides.widest(path.at(2.0 * ahead / whole)).0 } else { here.0 }
 }
 
 #[cfg(test)]
@@ -210,11 +231,31 @@ mod tests {
             ends += 1;
             // Coordinates of some tens of metres.
             assert!(room(&face, part, path.at(t)).abs() < 1e-12);
-            let next = part_ahead(&face, path.at(t), path.velocity(t), path.a, 0.5);
+            let next = part_ahead(&face, &Path { x: path.at(t), v: path.velocity(t), a: path.a }, 0.5);
             assert_ne!(next, part, "{x}: after {t} s");
             assert!(room(&face, next, path.at(t + 1e-7)) > 0.0, "{x}: {next:?}");
         }
         assert!(ends > 1000, "{ends} ends");
+    }
+
+    #[test]
+    fn a_part_ends_later_than_it_begins_wherever_it_begins() {
+        // on and beside the border at x = 1, moving to and from it at speeds from rounding up, pulled as slowly
+        let square = Parallelogram { center: DVec3::ZERO, s1: DVec3::X * 2.0, s2: DVec3::Z * 2.0 };
+        let (face, sizes) = (Face::new(square), [0.0, 1e-90, 1e-20, 1e-12, 1e-9, 1e-6, 1.0]);
+        let signed = || sizes.into_iter().flat_map(|size| [size, -size]);
+        for place in [0.0, 2e-16, 1e-13, 6e-13, 2e-12, 3e-10, 1e-9].into_iter().flat_map(|size| [size, -size]) {
+            for (v, a) in signed().flat_map(|v| signed().map(move |a| (v, a))) {
+                let path = Path { x: DVec3::new(1.0 + place, 0.5, 0.0), v: DVec3::X * v, a: DVec3::X * a };
+                let part = part_ahead(&face, &path, 0.5);
+                let end = part_end(&face, part, &path, 0.5, f64::INFINITY);
+                assert!(end.is_none_or(|end| end > 0.0), "{path:?}: {part:?} ends at {end:?}");
+                // farther from the border than it counts as one, the part is the one that is closest
+                if place.abs() > 1e-12 {
+                    assert_eq!(part, touch(&face, path.x, 0.5).part, "{path:?}");
+                }
+            }
+        }
     }
 
     #[test]
@@ -224,7 +265,7 @@ mod tests {
         let path = Path { x: on_border + face.normal * 0.5, v: face.shape.center - on_border, a: DVec3::ZERO };
         let t = part_end(&face, Part::Face, &path, 0.5, 100.0).expect("it leaves on the other side");
         assert!((t - 2.0).abs() < 1e-14, "{t}");
-        assert_eq!(part_ahead(&face, path.x, path.v, path.a, 0.5), Part::Face);
-        assert_eq!(part_ahead(&face, path.x, -path.v, path.a, 0.5), Part::Edge(1));
+        assert_eq!(part_ahead(&face, &path, 0.5), Part::Face);
+        assert_eq!(part_ahead(&face, &Path { v: -path.v, ..path }, 0.5), Part::Edge(1));
     }
 }

@@ -92,14 +92,21 @@ impl Trajectories {
         contact.v_n >= -(BRUSH + turned) * speed - missed
     }
 
+    /// Whether a contact approaches by no more than rounding of its bodies' speeds.
+    pub(super) fn brushes(&self, contact: &ContactState) -> bool {
+        contact.v_n >= -BRUSH * self.sum_of(contact, |path| path.v)
+    }
+
     /// Whether a contact approaches by no more than rounding, while it is about to open by far more than that.
     pub(crate) fn is_rounding_approach(&self, contact: &ContactState) -> bool {
+        self.brushes(contact) && contact.a_n > SUM * self.sum_of(contact, |path| path.a)
+    }
+
+    /// Sum of the lengths of a vector of both bodies of a contact.
+    fn sum_of(&self, contact: &ContactState, of: fn(&Path) -> DVec3) -> f64 {
         let (kind, a, b) = contact.key;
-        let path = |i: usize| self.path(i, self.now);
-        let size = |of: fn(&Path) -> DVec3| {
-            of(&path(a)).length() + if kind == Kind::Pair { of(&path(b)).length() } else { 0.0 }
-        };
-        contact.v_n >= -BRUSH * size(|path| path.v) && contact.a_n > SUM * size(|path| path.a)
+        let length = |i: usize| of(&self.path(i, self.now)).length();
+        length(a) + if kind == Kind::Pair { length(b) } else { 0.0 }
     }
 
     /// Slowest v_n (m/s) at which a contact that lets go has left: rounding, and enough that what still presses, where

@@ -107,7 +107,7 @@ impl Trajectories {
         let v_n = normal_velocity(path.v, DVec3::ZERO, at.normal);
         // only what may rest asks on which side of a border it will be
         let slow = v_n.abs() <= SLOW * path.v.length();
-        let part = if slow { part_ahead(face, path.x, path.v, path.a, r) } else { at.part };
+        let part = if slow { part_ahead(face, &path, r) } else { at.part };
         let a_n = at.normal.dot(path.a) + curvature(face, part, at.normal, path.v, r);
         let flat = part == Part::Face && at.part == part;
         let (point, normal, gap) = (at.point, at.normal, at.gap);

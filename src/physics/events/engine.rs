@@ -331,7 +331,7 @@ impl<D: Detector> EventDriven<D> {
             if mechanics.collide_plain_pair(model, log, slot, &plan)? {
                 let Mechanics { trajectories, rests, .. } = mechanics;
                 schedule.predict(model, trajectories, rests, plan.other as usize);
-            } else if self.meet(model, log, slot, &plan)? {
+            } else if !mechanics.collide_plain_wall(model, log, slot, &plan)? && self.meet(model, log, slot, &plan)? {
                 return Ok(());
             }
         }

@@ -76,6 +76,12 @@ impl LastImpacts {
         self.total.wrapping_sub(self.before) >= COMPARED
     }
 
+    /// Whether there are with one more.
+    #[inline(always)]
+    pub(super) fn will_be_many(&self) -> bool {
+        self.total.wrapping_sub(self.before) + 1 >= COMPARED
+    }
+
     /// Whether bodies are sent to and fro at one place.
     #[inline(always)]
     pub(super) fn go_to_and_fro(&self) -> bool {

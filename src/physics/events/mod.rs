@@ -9,7 +9,7 @@
 //! | `mechanics` | the state that events act on: trajectories, rests, impacts |
 //! | `trajectories`, `record` | where every sphere is, and the clock |
 //! | `contact_state` | two bodies that touch, at one instant |
-//! | `impact`, `plain_pair` | a contact happens: the impact law acts, or a rest may begin |
+//! | `impact`, `plain_pair`, `plain_wall` | a contact happens: the impact law acts, or a rest may begin |
 //! | `rest_reason`, `rest_criteria` | why a contact rests: every reason with its threshold, and the tests |
 //! | `rounding` | every threshold that stands for rounding |
 //! | `bounce`, `bounce_series`, `rub` | corrections of a bounce; series of bounces in closed form |
@@ -46,6 +46,7 @@ mod long_chain;
 mod mechanics;
 mod orbit;
 mod plain_pair;
+mod plain_wall;
 mod record;
 mod repeated_round;
 mod rest_criteria;

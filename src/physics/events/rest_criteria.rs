@@ -44,6 +44,15 @@ impl Mechanics {
             let held = self.impacts.instant.is_stuck(contact.key);
             return if held { Verdict::Rest(RestReason::Squeezed) } else { Verdict::Leave };
         }
+        let rests = |i: usize| self.rests.count(i) > 0;
+        if contact.key.0 == Kind::Pair
+            && contact.a_n >= 0.0
+            && (rests(contact.key.1) || rests(contact.key.2))
+            && self.trajectories.brushes(contact)
+        {
+            // what a body is driven into by that, because it rests on it, would drive it back: the same impact for ever
+            return Verdict::Leave;
+        }
         match classify(contact.v_n, contact.a_n < 0.0, &model.law) {
             Class::Collide => {}
             Class::Rest => return Verdict::Rest(RestReason::Slow),

@@ -18,7 +18,7 @@ use crate::physics::support::{Row, solve};
 use crate::physics::wall::{Face, touch};
 
 /// Events without the clock advancing from which on it is asked whether a sphere is squeezed, at powers of two.
-const DOUBTFUL: u64 = 4;
+pub(super) const DOUBTFUL: u64 = 4;
 
 impl Mechanics {
     /// Whether a contact can never be left: then all contacts that hold the sphere so rest from now on. The bodies have

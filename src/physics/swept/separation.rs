@@ -52,7 +52,7 @@ impl Separation for WallSeparation<'_> {
     fn acceleration(&self, s: f64) -> f64 {
         let (x, v) = (self.path.at(s), self.path.velocity(s));
         let normal = touch(self.face, x, self.r).normal;
-        let part = part_ahead(self.face, x, v, self.path.a, self.r);
+        let part = part_ahead(self.face, &Path { x, v, a: self.path.a }, self.r);
         normal.dot(self.path.a) + curvature(self.face, part, normal, v, self.r)
     }
 

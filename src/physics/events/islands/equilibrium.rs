@@ -296,12 +296,17 @@ impl Settled {
         let every = Short::from_elem(0.0, resting.len());
         let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
         let wall_opens = |index: usize| self.fate[index] == Fate::Opening && resting[index].b.is_none();
-        let mut dear = false;
+        // of two edges that are nearly one, to clear the one would drive the body into the other
+        let drives = |v: &[DVec3], holds: &[bool]| {
+            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], &before, v))
+        };
+        let mut driven = drives(&v, &holds);
         if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
             (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
-            dear = (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && is_driven(&resting[k], &before, &v));
+            driven = drives(&v, &holds)
+                || (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && is_driven(&resting[k], &before, &v));
         }
-        let dear = dear || v.iter().enumerate().any(costs);
+        let dear = driven || v.iter().enumerate().any(costs);
         let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
         let meets = |index: usize, other: usize| {
             has(other, resting[index].a) || resting[index].b.is_some_and(|body| has(other, body))

@@ -14,6 +14,7 @@ use crate::physics::events::rest_reason::RestReason;
 use crate::physics::events::rub::Rub;
 use crate::physics::events::trajectories::Trajectories;
 use crate::physics::model::Model;
+use crate::physics::path::Path;
 use crate::physics::state::State;
 use crate::physics::support::Short;
 use crate::physics::wall::Part;
@@ -326,7 +327,7 @@ impl Rests {
             Kind::Wall => {
                 let path = trajectories.path(a, trajectories.now);
                 let v = path.v - contact.normal * contact.v_n;
-                part_ahead(&model.faces[b], path.x, v, path.a, model.radii[a])
+                part_ahead(&model.faces[b], &Path { v, ..path }, model.radii[a])
             }
             Kind::Pair => Part::Face,
         };

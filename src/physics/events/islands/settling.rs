@@ -15,7 +15,7 @@ use crate::physics::log::Log;
 use crate::physics::model::Model;
 use crate::physics::state::{Stall, StallKind};
 use crate::physics::support::{Fate, Short, islands};
-use crate::physics::wall_parts::{part_ahead, part_end, room};
+use crate::physics::wall_parts::{part_beyond, part_end, room};
 
 /// Arcs in a row that are over at once, after which an island creeps for a moment: solving it again changes nothing.
 const HURRIED: u32 = 8;
@@ -146,7 +146,7 @@ impl Mechanics {
                 let told = HOP * path.x.abs().max_element().max(r) + path.v.length() * self.trajectories.clock_ulp();
                 // bounces on a face are not summed up beyond its border
                 if room(face, self.rests.kept(key).part, path.x) <= told && !self.interrupt_bounces(model, log, key) {
-                    self.rests.kept_mut(key).part = part_ahead(face, path.x, path.v, path.a, r);
+                    self.rests.kept_mut(key).part = part_beyond(face, &path, r, told);
                 }
             }
         }
