@@ -125,8 +125,7 @@ mod tests {
             };
             let e = if draw.unit() < 0.5 { 1.0 } else { draw.unit() };
             let tangential = if draw.unit() < 0.5 { 1.0 } else { draw.unit() };
-            let contact =
-                ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.1 * draw.unit() };
+            let contact = ContactLaw { restitution: e, wall_restitution: e, tangential, rest_speed: 0.1 * draw.unit() };
             let draft = Draft { gravity: DVec3::ZERO, contact, ..Draft::new(vec![wall], vec![sphere]) };
             let Ok(scene) = draft.validated() else { continue };
             let model = Model::new(&scene);

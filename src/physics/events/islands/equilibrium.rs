@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::physics::events::curved::bodies::{Body, Closed, geometry};
 use crate::physics::events::curved::equation::{BARELY, OPENED, power, pull};
-use crate::physics::events::rounding::{BRUSH, HOP, SUM, SUMMED_HOP};
+use crate::physics::events::rounding::{BRUSH, DRIVEN, HOP, SUM, SUMMED_HOP};
 use crate::physics::impact_law::is_lossless;
 use crate::physics::model::Model;
 use crate::physics::support::{
@@ -296,15 +296,15 @@ impl Settled {
         let every = Short::from_elem(0.0, resting.len());
         let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
         let wall_opens = |index: usize| self.fate[index] == Fate::Opening && resting[index].b.is_none();
-        // of two edges that are nearly one, to clear the one would drive the body into the other
+        // of two edges that are nearly one, to clear the one would drive the body into the other: on the way past both by 1e-12 r
         let drives = |v: &[DVec3], holds: &[bool]| {
-            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], &before, v))
+            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], &before, v, DRIVEN))
         };
         let mut driven = drives(&v, &holds);
         if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
             (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
             driven = drives(&v, &holds)
-                || (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && is_driven(&resting[k], &before, &v));
+                || (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && is_driven(&resting[k], &before, &v, SUM));
         }
         let dear = driven || v.iter().enumerate().any(costs);
         let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
@@ -397,10 +397,11 @@ impl Settled {
     }
 }
 
-/// Whether the velocities `after` (m/s, by body) drive a body into what it did not approach with those `before`. The edge of
-/// a step that has just been struck is no rounding: what lifts the body off the floor before it does so.
-fn is_driven(contact: &Resting, before: &[DVec3], after: &[DVec3]) -> bool {
-    let noise = SUM * before[contact.a].length();
+/// Whether the velocities `after` (m/s, by body) drive a body into what it did not approach with those `before`, by more than
+/// this share of its speed. The edge of a step that has just been struck is no rounding: what lifts the body off the floor
+/// before it does so.
+fn is_driven(contact: &Resting, before: &[DVec3], after: &[DVec3], share: f64) -> bool {
+    let noise = share * before[contact.a].length();
     let v_n = |v: &[DVec3]| relative(contact, &|body| v[body]).dot(contact.normal);
     v_n(after) < -noise && v_n(before) >= -noise
 }
