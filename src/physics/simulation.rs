@@ -262,11 +262,14 @@ impl Simulation {
     }
 
     /// Energy (J) that a state of [`Simulation::at`] does not show: within a frame of `moreau`, what its spheres still gain
-    /// by falling until the frame ends, with the velocities that they have there; otherwise 0.
+    /// by falling until the frame ends, with the velocities that they have there; by `exact` and `swept` that of bounces
+    /// that are summed up, as in [`Simulation::hidden_energy`]; by `paper` 0.
     pub fn hidden_energy_at(&self, state: &State) -> f64 {
         match &self.engine {
             Engines::Moreau(engine) => engine.hidden_energy_at(&self.model, state),
-            Engines::Paper(_) | Engines::Swept(_) | Engines::Exact(_) => 0.0,
+            Engines::Swept(engine) => engine.hidden_energy_at(&self.model, state.t),
+            Engines::Exact(engine) => engine.hidden_energy_at(&self.model, state.t),
+            Engines::Paper(_) => 0.0,
         }
     }
 

@@ -235,6 +235,12 @@ impl<D: Detector> EventDriven<D> {
         self.frame.hidden_energy
     }
 
+    /// Energy (J) of bounces that are summed up, which the state at `t` (s) within the last frame does not show.
+    pub(crate) fn hidden_energy_at(&self, model: &Model, t: f64) -> f64 {
+        let Mechanics { trajectories, rests, .. } = &self.mechanics;
+        rests.hidden_energy(model, trajectories, t)
+    }
+
     /// Why a contact rests; none if it does not.
     pub(crate) fn rest_reason(&self, key: Key) -> Option<RestReason> {
         self.mechanics.rests.reason(key)

@@ -97,6 +97,11 @@ impl<D: Detector> Resumable<D> {
     pub(crate) fn hidden_energy(&self) -> f64 {
         self.engine.hidden_energy()
     }
+
+    /// Energy of bounces that are summed up, which the state at `t` (s) within the last frame does not show, J.
+    pub(crate) fn hidden_energy_at(&self, model: &Model, t: f64) -> f64 {
+        self.engine.hidden_energy_at(model, t)
+    }
 }
 
 impl<D: Detector> Engine for Resumable<D> {

@@ -29,6 +29,11 @@ impl Rub {
         Rub { bounces, began, ending, mean, drift: pull * share, share }
     }
 
+    /// Whether the bounces have begun by `time`, s.
+    pub(crate) fn has_begun(&self, time: f64) -> bool {
+        self.began <= time
+    }
+
     /// The velocity (m/s) after the bounces on a face with this normal, from the one that it had come to.
     pub(crate) fn end(&self, v: DVec3, normal: DVec3) -> DVec3 {
         let across = normal * normal.dot(v);

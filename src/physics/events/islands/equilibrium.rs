@@ -82,7 +82,7 @@ pub(crate) fn solve_island(
     };
     for _ in 0..ROUNDS {
         settled.hold(bodies, all, (&resting, &gaps), (loads, &slack), low);
-        let closed = settled.clear_normal_velocity(bodies, &inverse_mass, (&resting, stuck), &slack);
+        let closed = settled.clear_normal_velocity(bodies, &inverse_mass, (&resting, &gaps, stuck), &slack);
         if !closed
             .iter()
             .any(|&index| settled.opening(&resting[index], bodies) < -settled.noise(&resting[index], bodies))
@@ -280,33 +280,19 @@ impl Settled {
     /// contact of the island, idle or between bodies that just open: nothing else would, and to part them afterwards would
     /// push one body alone, out of nothing. A wall that opens is closed too, lest the sphere be driven into it, unless that
     /// is [`DEAR`]: of two walls that are nearly one, to stand still on both would stop the motion along them, and the
-    /// one that opens lets go instead. Returns the contacts that were open and are closed by that.
+    /// one that opens lets go instead; so does the floor whose hold would drive the sphere into a step. Returns the contacts
+    /// that were open and are closed by that.
     fn clear_normal_velocity(
         &mut self,
         bodies: &mut [Body],
         inverse_mass: &[f64],
-        (resting, stuck): (&[Resting], &[f64]),
+        (resting, gaps, stuck): (&[Resting], &[f64], &[f64]),
         slack: &[f64],
     ) -> Short<usize> {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let v_n = |index: usize, v: &[DVec3]| relative(&resting[index], &|body| v[body]).dot(resting[index].normal);
         let loaded = |index: &usize| self.fate[*index] == Fate::Loaded;
-        let cleared = (0..resting.len()).filter(loaded).map(|index| v_n(index, &before)).fold(0.0, f64::max);
-        let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body].max(cleared);
-        let every = Short::from_elem(0.0, resting.len());
-        let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
-        let wall_opens = |index: usize| self.fate[index] == Fate::Opening && resting[index].b.is_none();
-        // of two edges that are nearly one, to clear the one would drive the body into the other: on the way past both by 1e-12 r
-        let drives = |v: &[DVec3], holds: &[bool]| {
-            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], &before, v, DRIVEN))
-        };
-        let mut driven = drives(&v, &holds);
-        if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
-            (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
-            driven = drives(&v, &holds)
-                || (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && is_driven(&resting[k], &before, &v, SUM));
-        }
-        let dear = driven || v.iter().enumerate().any(costs);
+        let (v, holds, dear) = self.cleared_at_cost(bodies, inverse_mass, (resting, gaps, stuck), slack);
         let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
         let meets = |index: usize, other: usize| {
             has(other, resting[index].a) || resting[index].b.is_some_and(|body| has(other, body))
@@ -335,6 +321,39 @@ impl Settled {
             }
         }
         closed
+    }
+
+    /// Velocities (m/s, by body) without what rounding left of those along the normals, which contacts hold then, and whether
+    /// that is dear: it takes velocity by more than rounding, or drives a body into what it did not approach.
+    fn cleared_at_cost(
+        &self,
+        bodies: &[Body],
+        inverse_mass: &[f64],
+        (resting, gaps, stuck): (&[Resting], &[f64], &[f64]),
+        slack: &[f64],
+    ) -> (Vec<DVec3>, Short<bool>, bool) {
+        let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
+        let loaded = |index: &usize| self.fate[*index] == Fate::Loaded;
+        let v_n = |index: usize| relative(&resting[index], &|body| before[body]).dot(resting[index].normal);
+        let most = (0..resting.len()).filter(loaded).map(v_n).fold(0.0, f64::max);
+        let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body].max(most);
+        let every = Short::from_elem(0.0, resting.len());
+        let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
+        let wall_opens = |index: usize| self.fate[index] == Fate::Opening && resting[index].b.is_none();
+        // of two edges that are nearly one, to clear the one would drive the body into the other: on the way past both by 1e-12 r
+        let drives = |v: &[DVec3], holds: &[bool]| {
+            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], &before, v, DRIVEN))
+        };
+        let mut driven = drives(&v, &holds);
+        if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
+            (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
+            let strikes = |k: usize| {
+                is_driven(&resting[k], &before, &v, SUM) && overlaps(&resting[k], gaps[k], &bodies[resting[k].a], &v)
+            };
+            driven = drives(&v, &holds) || (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && strikes(k));
+        }
+        let dear = driven || v.iter().enumerate().any(costs);
+        (v, holds, dear)
     }
 
     /// Velocities (m/s, by body) without what rounding left of those along the normals, and which contacts hold then: those
@@ -398,12 +417,23 @@ impl Settled {
 }
 
 /// Whether the velocities `after` (m/s, by body) drive a body into what it did not approach with those `before`, by more than
-/// this share of its speed. The edge of a step that has just been struck is no rounding: what lifts the body off the floor
-/// before it does so.
+/// this share of its speed.
 fn is_driven(contact: &Resting, before: &[DVec3], after: &[DVec3], share: f64) -> bool {
     let noise = share * before[contact.a].length();
     let v_n = |v: &[DVec3]| relative(contact, &|body| v[body]).dot(contact.normal);
     v_n(after) < -noise && v_n(before) >= -noise
+}
+
+/// Whether this body, gone straight on at these velocities (m/s, by body), would overlap what it has this gap (m) to by more
+/// than coordinates can tell. It strikes the edge of a step; that of a level tile beyond a crack it only passes.
+fn overlaps(contact: &Resting, gap: f64, body: &Body, v: &[DVec3]) -> bool {
+    let u = relative(contact, &|body| v[body]);
+    let (v_n, slip) = (contact.normal.dot(u), turning(contact, u).length());
+    let radius = match contact.surface {
+        Surface::Face => return true,
+        Surface::Edge { radius, .. } | Surface::Round { radius } => radius,
+    };
+    0.5 * radius * v_n * v_n > (gap + HOP * (body.x.abs().max_element() + body.r)) * slip * slip
 }
 
 /// The part of a relative vector that turns the normal of a contact.

@@ -53,7 +53,7 @@ impl Rests {
     /// Energy (J) at `time` (s) of bounces on walls that rub, as far as they are summed up.
     fn energy_of_sums(&self, model: &Model, trajectories: &Trajectories, time: f64) -> f64 {
         let of = |(&key, held): (&Key, &RestingContact)| {
-            let rub = held.rub.filter(|_| held.settles_at > time)?;
+            let rub = held.rub.filter(|rub| rub.has_begun(time) && held.settles_at > time)?;
             let (v, normal) =
                 (trajectories.path(key.1, time).v, trajectories.contact_geometry(model, key, time).normal);
             Some(model.masses[key.1] * rub.hidden_energy(v, normal, time, model.acceleration(key.1)))

@@ -129,7 +129,9 @@ impl Mechanics {
         if let Some(curve) = island.curve.clone().filter(|curve| !curve.changes) {
             self.rests.hurried = 0;
             self.rests.remember_chord(&spheres, &curve, now);
-            self.set_chord(&spheres, curve.next(model, now));
+            let keys: Short<Key> = spheres.iter().flat_map(|&i| self.rests.of[i].iter().copied()).collect();
+            // a series that is over, or a pause, ends any chord
+            self.set_chord(&spheres, curve.next(model, now).cut(self.settling_time(&keys) - now));
             return self.changed(spheres);
         }
         // after a creep the next arc is tried as it should be
@@ -139,8 +141,9 @@ impl Mechanics {
             self.advance(model, i);
         }
         for &i in &spheres {
-            let path = self.trajectories.path(i, now);
             for key in self.rests.of[i].clone().into_iter().filter(|key| key.0 == Kind::Wall) {
+                // anew: to interrupt bounces changes its velocity
+                let path = self.trajectories.path(i, now);
                 let (face, r) = (&model.faces[key.2], model.radii[i]);
                 // What has not come to its border keeps its part: ahead of it is an edge that it is not at.
                 let told = HOP * path.x.abs().max_element().max(r) + path.v.length() * self.trajectories.clock_ulp();
