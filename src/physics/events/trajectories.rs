@@ -13,6 +13,7 @@ use glam::DVec3;
 
 use super::hopping::Hopping;
 use super::record::{CellRef, Plan, Record, Trajectory};
+use super::rounding::HOP;
 use crate::physics::contact::{Key, Kind};
 use crate::physics::model::{Model, Pull};
 use crate::physics::path::Path;
@@ -112,6 +113,12 @@ impl Trajectories {
     pub(crate) fn clock_ulp(&self) -> f64 {
         let t = self.clock_size();
         t.next_up() - t
+    }
+
+    /// How near the border of a wall's part the foot of a sphere of radius `r` (m) on this path is at it, m: rounding of
+    /// coordinates and of the clock.
+    pub(crate) fn border(&self, path: &Path, r: f64) -> f64 {
+        HOP * path.x.abs().max_element().max(r) + path.v.length() * self.clock_ulp()
     }
 
     /// The slot of sphere `i`.

@@ -18,7 +18,7 @@ use crate::physics::path::Path;
 use crate::physics::state::State;
 use crate::physics::support::Short;
 use crate::physics::wall::Part;
-use crate::physics::wall_parts::part_ahead;
+use crate::physics::wall_parts::part_beyond;
 
 /// The number of no island.
 pub(super) const NONE: u32 = u32::MAX;
@@ -327,7 +327,8 @@ impl Rests {
             Kind::Wall => {
                 let path = trajectories.path(a, trajectories.now);
                 let v = path.v - contact.normal * contact.v_n;
-                part_ahead(&model.faces[b], &Path { v, ..path }, model.radii[a])
+                let (path, r) = (Path { v, ..path }, model.radii[a]);
+                part_beyond(&model.faces[b], &path, r, trajectories.border(&path, r))
             }
             Kind::Pair => Part::Face,
         };
