@@ -76,7 +76,7 @@ impl LastImpacts {
         self.total.wrapping_sub(self.before) >= COMPARED
     }
 
-    /// Whether there are with one more.
+    /// Whether there are enough to be compared with one more.
     #[inline(always)]
     pub(super) fn will_be_many(&self) -> bool {
         self.total.wrapping_sub(self.before) + 1 >= COMPARED

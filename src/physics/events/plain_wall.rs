@@ -20,9 +20,9 @@ use crate::physics::wall::{Touch, touch};
 
 /// A sphere that touches the face of a wall now.
 struct PlainWall {
-    /// Its trajectory, at the present.
+    /// The trajectory of the sphere, at the present.
     line: Trajectory,
-    /// When its motion last changed, s.
+    /// When the motion of the sphere last changed, s.
     since: f64,
     /// How the two touch.
     contact: ContactState,
