@@ -19,6 +19,10 @@ use crate::roots::{bound, bracketed, monotone, quadratic_fall, value};
 /// An approach that would go no deeper than this, relative to the coordinates, before it turns back is none: 8 ulp.
 const GRAZE: f64 = 8.0 * f64::EPSILON;
 
+/// Rounding of the gap to a closest point, in units of what [`WallSearch::rounding`] allows the polynomial of its time: 16 ulp of
+/// all lengths.
+const FOOT: f64 = 1.0 / 16.0;
+
 /// Square of a distance over that of the sum of the radii from which a pair is far: 1e-13 radii of ε x²/reach²/2.
 const FAR: f64 = 1e3;
 
@@ -375,7 +379,7 @@ impl WallSearch<'_> {
     /// polynomial says to touch may be apart by more than the closest point tells, beside an edge that carries the sphere
     /// meanwhile: pressed on this one, it would sink into that.
     fn closing_time(&self, t: f64, at: &Touch, closing: f64) -> Option<f64> {
-        let touches = at.part == Part::Face || at.gap <= 0.0625 * self.rounding(t);
+        let touches = at.part == Part::Face || at.gap <= FOOT * self.rounding(t);
         if touches && closing < 0.0 {
             return Some(0.0);
         }

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_that_are_no_numbers_meet_nobody() {
+    fn positions_that_are_no_numbers_meet_nothing() {
         let mut x = cloud(70, DVec3::splat(1e3), DVec3::ZERO);
         (x[3], x[5]) = (DVec3::NAN, DVec3::INFINITY);
         let (found, _) = both(&x, &[0.5; 70]);

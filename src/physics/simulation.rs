@@ -250,9 +250,9 @@ impl Simulation {
         self.now().energy(&self.model)
     }
 
-    /// Energy (J) at the end of the last frame that the state does not show: an event-driven method lets a sphere that
-    /// bounces lower than 1e-12 r off a wall that rubs go on with the mean velocity of all its bounces until they are over.
-    /// Energy and this together never rise.
+    /// Energy (J) at the end of the last frame that the state does not show: an event-driven method lets a sphere that bounces
+    /// lower than 1e-12 r off a wall that rubs, or by `swept` lower than it overlaps the wall, go on with the mean velocity
+    /// of all its bounces until they are over. Energy and this together never rise.
     pub fn hidden_energy(&self) -> f64 {
         match &self.engine {
             Engines::Swept(engine) => engine.hidden_energy(),

@@ -16,7 +16,7 @@ use crate::physics::impact_law::along;
 use crate::physics::model::Model;
 use crate::physics::overlap::touching;
 use crate::physics::path::Path;
-use crate::physics::wall::{Face, Part, touch};
+use crate::physics::wall::{Face, Part, edge_direction, touch};
 
 impl ContactState {
     /// How long the bounces of a contact still last, s, whose next would go [`SUMMED_HOP`](super::rounding::SUMMED_HOP)
@@ -195,7 +195,6 @@ impl Mechanics {
 /// Velocity of a sphere without its part along the edge of a wall that is closest to it, m/s.
 fn across(face: &Face, line: &Trajectory) -> DVec3 {
     let Part::Edge(k) = touch(face, line.x, line.r).part else { return line.v };
-    let corners = face.shape.corners();
-    let side = (corners[(k as usize + 1) % 4] - corners[k as usize]).normalize();
-    line.v - side * side.dot(line.v)
+    let along = edge_direction(face, k);
+    line.v - along * along.dot(line.v)
 }

@@ -105,6 +105,7 @@ mod tests {
     use super::*;
     use crate::geometry::Parallelogram;
     use crate::physics::contact_time::sphere_wall;
+    use crate::physics::events::plain_pair::tests::taken_alike;
     use crate::physics::path::Path;
     use crate::random::SplitMix64;
     use crate::scene::{ContactLaw, Draft, Sphere, Wall};
@@ -138,25 +139,8 @@ mod tests {
 
     #[test]
     fn a_plain_impact_on_a_wall_gets_the_bits_that_the_general_one_gives() {
-        let mut draw = SplitMix64::new(1);
-        let mut quick_ones = 0;
-        for case in 0..1000 {
-            let (model, t) = meeting(&mut draw);
-            let mut quick = Mechanics::new(&model, &model.initial);
-            quick.trajectories.now = t;
-            let mut general = quick.clone();
-            let (mut told, mut told_in_general) = (Log::default(), Log::default());
-            let plan = Plan { contact: t, other: 0, kind: Kind::Wall, is_contact: true, ..Plan::IDLE };
-            if !quick.collide_plain_wall(&model, &mut told, 0, &plan).expect("it goes on") {
-                continue;
-            }
-            quick_ones += 1;
-            general.meet(&model, &mut told_in_general, (Kind::Wall, 0, 0)).expect("it goes on");
-            let state = |of: &Mechanics| of.state_at(&model, t).hash();
-            assert_eq!(state(&quick), state(&general), "case {case}");
-            assert_eq!(told.contacts, told_in_general.contacts, "case {case}");
-        }
+        let taken = taken_alike(meeting, (Kind::Wall, 0, 0), Mechanics::collide_plain_wall);
         // all but those at edges and corners, and that approach no faster than what may rest
-        assert!(quick_ones > 400, "{quick_ones} of 1000");
+        assert!(taken > 400, "{taken} of 1000");
     }
 }

@@ -96,7 +96,8 @@ pub(crate) const SHARED_POINT: f64 = 1e-8;
 /// while.
 pub(crate) const TOUCHED_GAP: f64 = 1e-9;
 
-/// Bounces whose hops are lower than this many radii are summed up in closed form, and what rests and is pressed takes none.
+/// Bounces whose hops are lower than this many radii are summed up in closed form, and what rests and is pressed takes none. Off
+/// an overlap that a tolerance allows, or where coordinates tell less, higher ones are summed up too.
 pub(crate) const SUMMED_HOP: f64 = 1e-12;
 
 /// Largest energy of sliding that flights followed at once may rub away before they are told, in units of what a fall by the

@@ -117,7 +117,7 @@ impl Trajectories {
 
     /// How near the border of a wall's part the foot of a sphere of radius `r` (m) on this path is at it, m: rounding of
     /// coordinates and of the clock.
-    pub(crate) fn border(&self, path: &Path, r: f64) -> f64 {
+    pub(crate) fn border_rounding(&self, path: &Path, r: f64) -> f64 {
         HOP * path.x.abs().max_element().max(r) + path.v.length() * self.clock_ulp()
     }
 

@@ -292,7 +292,7 @@ impl Settled {
         let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let v_n = |index: usize, v: &[DVec3]| relative(&resting[index], &|body| v[body]).dot(resting[index].normal);
         let loaded = |index: &usize| self.fate[*index] == Fate::Loaded;
-        let (v, holds, dear) = self.cleared_at_cost(bodies, inverse_mass, (resting, gaps, stuck), slack);
+        let (v, holds, dear) = self.cleared_at_cost((bodies, &before), inverse_mass, (resting, gaps, stuck), slack);
         let has = |index: usize, body: usize| resting[index].a == body || resting[index].b == Some(body);
         let meets = |index: usize, other: usize| {
             has(other, resting[index].a) || resting[index].b.is_some_and(|body| has(other, body))
@@ -324,31 +324,31 @@ impl Settled {
     }
 
     /// Velocities (m/s, by body) without what rounding left of those along the normals, which contacts hold then, and whether
-    /// that is dear: it takes velocity by more than rounding, or drives a body into what it did not approach.
+    /// that is dear: it takes velocity by more than rounding, or drives a body into what it did not approach. The bodies are
+    /// given with their velocities `before`, m/s.
     fn cleared_at_cost(
         &self,
-        bodies: &[Body],
+        (bodies, before): (&[Body], &[DVec3]),
         inverse_mass: &[f64],
         (resting, gaps, stuck): (&[Resting], &[f64], &[f64]),
         slack: &[f64],
     ) -> (Vec<DVec3>, Short<bool>, bool) {
-        let before: Short<DVec3> = bodies.iter().map(|body| body.v).collect();
         let loaded = |index: &usize| self.fate[*index] == Fate::Loaded;
         let v_n = |index: usize| relative(&resting[index], &|body| before[body]).dot(resting[index].normal);
         let most = (0..resting.len()).filter(loaded).map(v_n).fold(0.0, f64::max);
         let costs = |(body, v): (usize, &DVec3)| v.distance(before[body]) > DEAR * slack[body].max(most);
         let every = Short::from_elem(0.0, resting.len());
-        let (mut v, mut holds) = self.cleared(&before, inverse_mass, (resting, &every), power(bodies));
+        let (mut v, mut holds) = self.cleared(before, inverse_mass, (resting, &every), power(bodies));
         let wall_opens = |index: usize| self.fate[index] == Fate::Opening && resting[index].b.is_none();
         // of two edges that are nearly one, to clear the one would drive the body into the other: on the way past both by 1e-12 r
         let drives = |v: &[DVec3], holds: &[bool]| {
-            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], &before, v, DRIVEN))
+            (0..resting.len()).any(|k| holds[k] && !loaded(&k) && is_driven(&resting[k], before, v, DRIVEN))
         };
         let mut driven = drives(&v, &holds);
         if (0..holds.len()).any(|index| holds[index] && wall_opens(index)) && v.iter().enumerate().any(costs) {
-            (v, holds) = self.cleared(&before, inverse_mass, (resting, stuck), power(bodies));
+            (v, holds) = self.cleared(before, inverse_mass, (resting, stuck), power(bodies));
             let strikes = |k: usize| {
-                is_driven(&resting[k], &before, &v, SUM) && overlaps(&resting[k], gaps[k], &bodies[resting[k].a], &v)
+                is_driven(&resting[k], before, &v, SUM) && overlaps(&resting[k], gaps[k], &bodies[resting[k].a], &v)
             };
             driven = drives(&v, &holds) || (0..resting.len()).any(|k| !holds[k] && wall_opens(k) && strikes(k));
         }

@@ -328,7 +328,7 @@ impl Rests {
                 let path = trajectories.path(a, trajectories.now);
                 let v = path.v - contact.normal * contact.v_n;
                 let (path, r) = (Path { v, ..path }, model.radii[a]);
-                part_beyond(&model.faces[b], &path, r, trajectories.border(&path, r))
+                part_beyond(&model.faces[b], &path, r, trajectories.border_rounding(&path, r))
             }
             Kind::Pair => Part::Face,
         };

@@ -146,7 +146,7 @@ impl Mechanics {
                 let path = self.trajectories.path(i, now);
                 let (face, r) = (&model.faces[key.2], model.radii[i]);
                 // What has not come to its border keeps its part: ahead of it is an edge that it is not at.
-                let told = self.trajectories.border(&path, r);
+                let told = self.trajectories.border_rounding(&path, r);
                 // bounces on a face are not summed up beyond its border
                 if room(face, self.rests.kept(key).part, path.x) <= told && !self.interrupt_bounces(model, log, key) {
                     self.rests.kept_mut(key).part = part_beyond(face, &path, r, told);
